@@ -209,7 +209,7 @@ fn runs_are_classified_without_a_base_response() {
     let with = place.good(&ask("35", &["--from-rest"]));
     assert!((value(&without) / value(&with) - 1.0).abs() < 1e-4);
     let printed = without["sentence"].as_str().expect("words");
-    assert!(printed.starts_with("At A = 38 N the base response ends at 98"), "{printed}");
+    assert!(printed.starts_with("At dither.amplitude_n = 38 N the base response was not found: the response that continues steady sliding ends at 98"), "{printed}");
     let (found, status) = place.json(&ask("38", &[]));
     assert_eq!((status, &found["errors"][0]["key"]), (1, &"thresholds".into()));
     assert!(found.to_string().contains("--from-rest"), "{found}");
@@ -381,10 +381,15 @@ fn ranges_reject_the_same_values_as_changes() {
             assert!(!text.contains("such as dither.amplitude_n or"), "{text}");
         }
     }
-    // Thresholds are peak values: the root mean square depends on the waveform.
-    let rms = ["--parameter", "dither.amplitude_n_rms", "--from", "1", "--to", "2"];
-    let errors = place.refused(&[&["thresholds", "pad.toml"][..], &rms].concat());
-    assert_eq!(errors[0]["suggestion"], "dither.amplitude");
+    // A root mean square is varied as such.
+    let threshold = |path: &'static str, from: &'static str, to: &'static str| {
+        let range = ["--parameter", path, "--from", from, "--to", to];
+        let found = place.good(&[&["thresholds", "pad.toml"][..], &range].concat());
+        found["local"][0]["value"].as_f64().expect("a threshold")
+    };
+    let peak = threshold("dither.amplitude_n", "5000", "6500");
+    let rms = threshold("dither.amplitude_n_rms", "3500", "4500");
+    assert!((rms * 2f64.sqrt() / peak - 1.0).abs() < 1e-9, "{rms} {peak}");
 }
 
 #[test]

@@ -341,7 +341,7 @@ fn motions_of_the_drive_are_found_from_the_command_line() {
     close(&orbit["period"], 0.628_318_530_717_958_8, 1e-12);
     let range = ["--parameter", "dither.amplitude", "--from", "5.3", "--to", "5.5"];
     let thresholds = answer(&[&["thresholds", drive][..], &range, &["--from-rest"]].concat());
-    for found in [&thresholds["thresholds"][0], &thresholds["from_rest"][0]] {
+    for found in [&thresholds["local"][0], &thresholds["from_rest"][0]] {
         close(&found["value"], 5.396_532_388_527_742, 1e-6);
         assert_eq!(found["kind"], "grazing");
     }
@@ -370,7 +370,7 @@ fn verbs_agree_about_where_a_run_ends() {
     {
         let range = ["--parameter", "dither.amplitude", "--from", below, "--to", above];
         let found = answer(&[&["thresholds", study][..], &range].concat());
-        let threshold = &found["thresholds"][0];
+        let threshold = &found["local"][0];
         assert_eq!(threshold["was"], "unstable");
         assert_eq!(threshold["becomes"], "stable");
         for (amplitude, verdict) in [(below, "unstable"), (above, "stable")] {

@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
-use quell_dynamics::orbit::curve::{ParameterPlane, curves};
+use quell_dynamics::motion::orbit::{MotionPlane, motion_curves};
 use quell_dynamics::orbit::threshold::local_thresholds;
 use quell_dynamics::orbit::{from_sliding, near};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
@@ -32,10 +32,12 @@ fn both_thresholds(belt: &Belt) -> usize {
 
 /// Both thresholds of the amplitude over the belt's velocity, and the number of points.
 fn both_curves(belt: &Belt) -> usize {
-    let at =
-        |values: &[f64]| belt.with_belt_velocity(values[1]).ok()?.with_amplitude(0, values[0]).ok();
-    let plane = ParameterPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5) };
-    let found = curves(belt, plane, 3, 100).expect("curves").curves;
+    let at = |values: &[f64]| {
+        let belt = belt.with_belt_velocity(values[1]).map_err(|why| why.to_string())?;
+        Ok(belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?.system())
+    };
+    let plane = MotionPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5), points: 100 };
+    let found = motion_curves(&plane, 3).expect("curves").curves;
     found.iter().map(|curve| curve.points.len()).sum()
 }
 

@@ -3,6 +3,7 @@
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::System;
+use quell_model::profile::Wave;
 
 /// Upper end of the band, in ω₀ (2.27). Self-excited vibration is at about the natural frequency, 1, and the band ends below
 /// its second harmonic. Lower, vibration would be missed; higher, a slow dither's own response would count as slow vibration.
@@ -17,4 +18,16 @@ pub fn vibration_frequency(system: &System) -> Option<f64> {
     let found = spectrum(&linear, &linear.friction()).ok()?;
     // The fastest growing one is the first.
     found.motions.iter().map(SmallMotion::frequency).find(|frequency| *frequency > 0.0)
+}
+
+/// Whether every spectral line of a motion of this period is above the band of the vibration of a system.
+pub fn is_above_the_band(system: &System, period: f64) -> bool {
+    let lowest = std::f64::consts::TAU / period;
+    vibration_frequency(system).is_some_and(|vibration| lowest > BAND_END * vibration)
+}
+
+/// Whether a motion with the period of the dither may vibrate in the band itself: a run in step with it is then not quenched.
+pub fn dither_reaches_the_band(system: &System) -> bool {
+    let lowest = system.waves().map(Wave::repetition).fold(f64::INFINITY, f64::min);
+    vibration_frequency(system).is_some_and(|vibration| lowest <= BAND_END * vibration)
 }

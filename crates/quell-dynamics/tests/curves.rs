@@ -1,6 +1,6 @@
 //! Curves of thresholds in two parameters.
 
-use quell_dynamics::orbit::curve::{ParameterPlane, ThresholdCurveEnd, curves};
+use quell_dynamics::motion::orbit::{MotionPlane, ThresholdCurveEnd, motion_curves};
 use quell_dynamics::orbit::threshold::{ThresholdKind, local_thresholds};
 use quell_model::Waveform;
 use quell_zoo::BeltExt;
@@ -11,8 +11,8 @@ use quell_zoo::belt::{decreasing_under, over_amplitude_and_velocity, over_amplit
 fn amplitude_over_belt_velocity() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
     let at = over_amplitude_and_velocity(&belt);
-    let plane = ParameterPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5) };
-    let found = curves(&belt, plane, 3, 60).expect("curves").curves;
+    let plane = MotionPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5), points: 60 };
+    let found = motion_curves(&plane, 3).expect("curves").curves;
     for curve in &found {
         println!("{:?} {:?} {} points", curve.kind, curve.ends, curve.points.len());
     }

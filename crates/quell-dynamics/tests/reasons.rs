@@ -4,7 +4,7 @@
 //! to provoke within a second.
 
 use quell_dynamics::attractor::{AttractorSettings, Patience, orbit_reached, settle};
-use quell_dynamics::orbit::curve::{Open, OpenLine, ParameterPlane, curves};
+use quell_dynamics::motion::orbit::{MotionPlane, NoMotionOrbit, Open, OpenLine, motion_curves};
 use quell_dynamics::orbit::cycle::{cycles, free_end};
 use quell_dynamics::orbit::threshold::{NoThresholds, along, local, local_thresholds};
 use quell_dynamics::orbit::{NoOrbit, Orbit, Unsettled, common_period, from_sliding, near};
@@ -182,15 +182,14 @@ fn thresholds() {
 fn curves_of_thresholds() {
     let line = |belt: &Belt, window, between| -> OpenLine {
         let at = over_amplitude_and_velocity(belt);
-        let plane = ParameterPlane { at: &at, window, between };
-        curves(belt, plane, 2, 5).expect("one line is followed").open[0]
+        let plane = MotionPlane { at: &at, window, between, points: 5 };
+        motion_curves(&plane, 2).expect("one line is followed").open[0].clone()
     };
     let why = line(&decreasing_under(Waveform::Sine, 1.0), (0.1, 3.0), (-1.0, 1.0));
-    assert_eq!(why, OpenLine { along: -0.5, why: Open::Invalid });
-    assert_states(&why, &["at -0.5", "cannot take this value"]);
+    assert_states(&why, &["at -0.5", "belt_velocity"]);
     let why = line(&folding(1e-4), (2e-3, 3e-3), (0.9, 1.1));
-    let Open::Begin(NoThresholds::Start(NoOrbit::Ends { .. })) = why.why else { panic!("{why}") };
-    assert_states(&why, &["at 0.95", "exists beyond"]);
+    let Open::Begin(NoMotionOrbit::Ends { .. }) = why.why else { panic!("{why}") };
+    assert_states(&why, &["at 0.95", "ends at 52.9"]);
     // No plane is known in which these are met at once.
     let line = |why: Open| OpenLine { along: 2.5, why };
     assert_states(&line(Open::Lost { at: 0.375 }), &["at 2.5", "lost beyond 0.375"]);

@@ -1,7 +1,7 @@
 //! Arguments shared by several verbs: pairs of numbers, states, ends of a range.
 
 use pyo3::FromPyObject;
-use quell::run::system::protocol::{numbers_of, pair_of};
+use quell::run::protocol::{numbers_of, pair_of};
 use quell::run::system::start::StateNumbers;
 use quell::study::{Study, SystemStudy};
 use quell::{Failure, quantity};

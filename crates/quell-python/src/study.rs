@@ -15,7 +15,7 @@ use quell::{Change, Complaints, Failure, Study};
 use quell_model::units::Quantity;
 
 use crate::answer::NativeAnswer;
-use crate::arguments::{GivenState, NamedNumbers, Pair, both, ends};
+use crate::arguments::{GivenState, Pair, both, ends};
 use crate::verbs::attractor::TimeTexts;
 use crate::verbs::compare::RecordTexts;
 use crate::verbs::map::Asked;
@@ -380,40 +380,21 @@ impl NativeStudy {
         call::run(py, move || attractor::run(&study, start.as_ref(), times.as_ref()))
     }
 
-    /// `protocols`: names of starts; `start`: a further start as a state.
-    #[pyo3(signature = (parameter, range, protocols, start, ramp))]
+    /// `runs`: names of starts, a further start as a state, and the time of their ramp; `near`: a state with its number of periods.
+    #[pyo3(signature = (parameter, range, runs, near))]
     fn thresholds(
         &self,
         py: Python<'_>,
         parameter: String,
         range: Pair,
-        protocols: Vec<String>,
-        start: Option<Pair>,
-        ramp: String,
+        runs: (Vec<String>, Option<GivenState>, String),
+        near: Option<(GivenState, u32)>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || {
-            thresholds::run(&study, parameter, &range, (&protocols, start.as_ref()), &ramp)
-        })
-    }
-
-    /// Of a system: `runs` are names of starts and the time of their ramp; `start` and `near`, with its number of periods, are names of its state with their values.
-    #[pyo3(signature = (parameter, range, runs, start, near))]
-    fn thresholds_of_system(
-        &self,
-        py: Python<'_>,
-        parameter: String,
-        range: Pair,
-        runs: (Vec<String>, String),
-        start: Option<NamedNumbers>,
-        near: Option<(NamedNumbers, u32)>,
-    ) -> PyResult<NativeAnswer> {
-        let study = self.study();
-        call::run(py, move || {
-            let (protocols, ramp) = runs;
-            let near = near.as_ref().map(|(pairs, periods)| (pairs, *periods));
-            let starts = (protocols.as_slice(), start.as_ref());
-            thresholds::run_of_system(&study, parameter, &range, starts, (near, &ramp))
+            let (names, start, ramp) = &runs;
+            let near = near.as_ref().map(|(state, periods)| (state, *periods));
+            thresholds::run(&study, parameter, &range, (names, start.as_ref(), ramp), near)
         })
     }
 

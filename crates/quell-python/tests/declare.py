@@ -63,6 +63,7 @@ def of_the_study(result: results.Result) -> set[str]:
     depending = {name for name in result.arrays if isinstance(study, quell.System) and name.startswith(tuple(starts))}
     depending -= {name for name in depending if name.startswith("shape_at")}
     depending |= {name for name in result.arrays if name.startswith(("indices_", "sensitivity_"))}
+    depending |= {f"state_{name}" for name in attributes(set(facts.get("state_names", []))).values()}
     scheduled = {name for name in result.arrays if name.startswith("schedule_")}
     depending |= {name for name in scheduled if not name.startswith(("schedule_amplitude", "schedule_objective"))}
     return found | depending | {name for name in result.arrays if re.search(r"_\d+$", name)}

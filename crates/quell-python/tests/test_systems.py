@@ -291,8 +291,8 @@ def test_arguments_are_checked(hoffmann: quell.System, belt: quell.Belt) -> None
     ):
         with pytest.raises(quell.StudyError):
             anyhow.stability(**wrong)
-    with pytest.raises(quell.StudyError, match="from_rest: must be left out: without dither"):
-        hoffmann.thresholds(FRICTION, 0.6, 0.9, from_rest=True)
+    with pytest.raises(quell.StudyError, match="near: must be left out: without dither"):
+        hoffmann.thresholds(FRICTION, 0.6, 0.9, near={"x": 0.1})
     with pytest.raises(quell.StudyError, match="ramp"):
         hoffmann.thresholds(FRICTION, 0.6, 0.9, ramp=10)
     with pytest.raises(quell.StudyError, match=r"stability\(parameter=…\) is not available for a belt study"):

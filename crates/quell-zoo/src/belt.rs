@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 
-use quell_model::{Belt, Dither, Friction, LawKind, Waveform};
+use quell_model::{Belt, Dither, Friction, LawKind, System, Waveform};
 
 use crate::dither::{normal, tangential};
 use crate::{NamedModel, law};
@@ -46,8 +46,12 @@ pub fn over_velocities(belt: &Belt) -> impl Fn(&[f64]) -> Option<Belt> {
 }
 
 /// The belt over the amplitude of its first dither and its velocity.
-pub fn over_amplitude_and_velocity(belt: &Belt) -> impl Fn(&[f64]) -> Option<Belt> {
-    |values| belt.with_belt_velocity(values[1]).ok()?.with_amplitude(0, values[0]).ok()
+pub fn over_amplitude_and_velocity(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, String> {
+    |values| {
+        let belt = belt.with_belt_velocity(values[1]).map_err(|why| why.to_string())?;
+        let belt = belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
+        Ok(belt.system())
+    }
 }
 
 impl BeltExt for Belt {

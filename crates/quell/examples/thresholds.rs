@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --package quell --example thresholds`
 
+use quell::kind::system_of;
 use quell::outcome::{Answered, Outcome};
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::{self, ThresholdsRequest};
@@ -30,16 +31,17 @@ frequency_ratio = 10.0
 /// # Errors
 /// An invalid study; a response that cannot be followed.
 pub(crate) fn main() -> Result<(), Failure> {
-    let study = Study::parse(STUDY, &[])?.belt()?;
+    // A belt is a system of one mass.
+    let study = system_of(&Study::parse(STUDY, &[])?, "thresholds")?;
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        from: 0.4,
-        to: 0.6,
+        window: (0.4, 0.6),
         protocols: vec![Protocol::Rest],
         ..ThresholdsRequest::default()
     };
-    let found = thresholds::run(&study, request)?;
-    assert!((found.local.thresholds[0].value - 0.4965619).abs() < 1e-7);
+    let found = thresholds::run(&study, &request)?;
+    let first = found.local.as_ref().ok().and_then(|local| local.thresholds.first());
+    assert!(first.is_some_and(|first| (first.value - 0.4965619).abs() < 1e-7));
     println!("{}", Answered::new(&study, found).text());
     Ok(())
 }

@@ -38,24 +38,24 @@
 //! # Above which amplitude does it quench?
 //!
 //! ```
-//! # use quell::BeltStudy;
+//! # use quell::Study;
+//! use quell::kind::verbs;
 //! use quell::run::protocol::Protocol;
-//! use quell::run::thresholds::{self, ThresholdsRequest};
+//! use quell::run::thresholds::ThresholdsRequest;
 //!
 //! # fn main() -> Result<(), quell::Failure> {
 //! # let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
 //! #     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
 //! #     direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.52\nfrequency_ratio = 10.0\n";
-//! # let study = BeltStudy::parse(text, &[])?;
+//! # let study = Study::parse(text, &[])?;
 //! let request = ThresholdsRequest {
 //!     parameter: "dither.amplitude".to_owned(),
-//!     from: 0.4,
-//!     to: 0.6,
+//!     window: (0.4, 0.6),
 //!     protocols: vec![Protocol::Rest],
 //!     ..ThresholdsRequest::default()
 //! };
-//! let found = thresholds::run(&study, request)?;
-//! assert!((found.local.thresholds[0].value - 0.4965619).abs() < 1e-7);
+//! let found = verbs(&study).thresholds(&request)?.json();
+//! assert!((found["local"][0]["value"].as_f64().unwrap_or(0.0) - 0.4965619).abs() < 1e-7);
 //! # Ok(())
 //! # }
 //! ```

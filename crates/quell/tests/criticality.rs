@@ -30,8 +30,9 @@ fn exponents(study: &Study, times: (f64, f64)) -> Json {
 
 fn thresholds(study: &Study, parameter: &str, from: f64, to: f64) -> Json {
     let parameter = parameter.to_owned();
-    let request = ThresholdsRequest { parameter, from, to, protocols: Vec::new(), ramp: 0.0 };
-    verbs(study).thresholds(request).unwrap_or_else(|why| panic!("{why:?}")).json()
+    let request =
+        ThresholdsRequest { parameter, window: (from, to), ..ThresholdsRequest::default() };
+    verbs(study).thresholds(&request).unwrap_or_else(|why| panic!("{why:?}")).json()
 }
 
 /// Stable periodic motions of independent programs, with and without sticks: the exponents are those of the multipliers.

@@ -104,13 +104,12 @@ fn designs_for_runs_agree_with_the_thresholds_of_runs() {
         let least = found["critical"]["dither.amplitude"].as_f64().expect("a number");
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            from: 0.01,
-            to: 20.0,
-            protocols: vec![protocol],
-            ramp: 0.0,
+            window: (0.01, 20.0),
+            protocols: vec![protocol.clone()],
+            ..ThresholdsRequest::default()
         };
         let study = Study::parse(BELT, &[]).expect("a study");
-        let json = verbs(&study).thresholds(request).expect("thresholds").json();
+        let json = verbs(&study).thresholds(&request).expect("thresholds").json();
         let changes = json[protocol.name()].as_array().expect("changes");
         let last = changes.last().and_then(|change| change["value"].as_f64()).expect("a number");
         assert!((least / last - 1.0).abs() < 2e-5, "{start}: {least} and {last}");

@@ -123,11 +123,10 @@ fn dither_on_one_of_two_masses() {
         let study = Study::parse(&text, &[]).expect("a study");
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            from: 0.9 * amplitude,
-            to: 1.1 * amplitude,
+            window: (0.9 * amplitude, 1.1 * amplitude),
             ..ThresholdsRequest::default()
         };
-        let thresholds = verbs(&study).thresholds(request).expect("thresholds").facts();
+        let thresholds = verbs(&study).thresholds(&request).expect("thresholds").facts();
         let values = thresholds["local"].as_array().expect("a list");
         let nearest = values.iter().map(|row| (number(&row["value"]) / amplitude - 1.0).abs());
         let nearest = nearest.fold(f64::INFINITY, f64::min);

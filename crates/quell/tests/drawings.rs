@@ -9,11 +9,10 @@ use quell::picture::orbit::orbit as draw_orbit;
 use quell::picture::{basins as draw_basins, curves as draw_curves, disc};
 use quell::plot::Figure;
 use quell::run::basins::{self, StartLayout};
-use quell::run::curves;
 use quell::run::disc::{campbell, modes, resonances, stability};
 use quell::run::orbit::{self, Wanted};
 use quell::run::protocol::Protocol;
-use quell::run::thresholds;
+use quell::run::thresholds::{self, curves};
 use quell::run::varied::Range;
 use quell::sweep::Running;
 use quell::{BeltStudy, Change, DiscStudy, Study, picture};
@@ -61,12 +60,12 @@ fn thresholds_are_marked_where_they_are() {
     let study = belt("can-dither-make-it-worse.toml", &[]);
     let question = thresholds::ThresholdsRequest {
         parameter: "dither.amplitude".into(),
-        from: 4.0,
-        to: 10.5,
+        window: (4.0, 10.5),
         protocols: vec![Protocol::Sliding],
-        ramp: 0.0,
+        ..thresholds::ThresholdsRequest::default()
     };
-    let done = thresholds::run(&study, question).expect("an answer");
+    let study = system_of(&(&study).into(), "thresholds").expect("a system");
+    let done = thresholds::run(&study, &question).expect("an answer");
     let (answer, figure) = (done.json(&study), picture::thresholds(&study, &done).described());
     let marked: Vec<f64> = layers(&figure, 0, "points")
         .iter()
@@ -105,6 +104,7 @@ fn curves_of_thresholds_are_drawn_point_by_point() {
         along: "belt.belt_velocity".into(),
         between: (0.85, 1.5),
     };
+    let study = system_of(&(&study).into(), "thresholds").expect("a system");
     let done = curves::run(&study, &question).expect("an answer");
     let (answer, figure) = (done.json(&study), draw_curves(&study, &done).described());
     let drawn = layers(&figure, 0, "line");

@@ -105,11 +105,10 @@ fn exact_amplitudes_close_to_the_load_are_thresholds() {
         let sine = &facts["waveforms"][0];
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            from: 0.02,
-            to: 0.999,
+            window: (0.02, 0.999),
             ..ThresholdsRequest::default()
         };
-        let thresholds = verbs(&study).thresholds(request).expect("thresholds").facts();
+        let thresholds = verbs(&study).thresholds(&request).expect("thresholds").facts();
         let local = thresholds["local"].as_array().expect("a list");
         let stable = local.iter().filter(|row| row["becomes"] == "stable");
         let least = stable.map(|row| number(&row["value"])).fold(f64::INFINITY, f64::min);

@@ -306,12 +306,12 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     warns(&orbit(&outside));
     let question = |to| thresholds::ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        from: 1.2,
-        to,
+        window: (1.2, to),
         ..thresholds::ThresholdsRequest::default()
     };
-    quiet(&thresholds::run(&inside, question(1.6)).expect("thresholds").json(&inside));
-    warns(&thresholds::run(&inside, question(3.0)).expect("thresholds").json(&inside));
+    let asked = |to| verbs(&(&inside).into()).thresholds(&question(to)).expect("thresholds").json();
+    quiet(&asked(1.6));
+    warns(&asked(3.0));
     let stop = std::sync::atomic::AtomicBool::new(false);
     let running = Running { threads: Some(1), progress: &(), stop: &stop };
     let range =

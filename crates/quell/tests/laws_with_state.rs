@@ -7,10 +7,8 @@ use quell::run::found_attractor::AttractorRequest;
 use quell::run::orbit::{Wanted, run as orbit_run};
 use quell::run::protocol::Protocol;
 use quell::run::system::exact::run as system_exact;
-use quell::run::system::protocol::SystemProtocol;
 use quell::run::system::simulate::{MotionRequest, run as run_system};
 use quell::run::system::stability::run as system_stability;
-use quell::run::system::thresholds::MotionThresholdsRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::{friction, response, simulate, stability};
 use quell::study::{BeltStudy, Study, SystemStudy};
@@ -257,7 +255,7 @@ frequency = 10.0
 #[test]
 fn a_dithered_slider_has_a_periodic_motion_with_multipliers() {
     let study = system(SLIDER);
-    let wanted = Wanted::After(SystemProtocol::Study);
+    let wanted = Wanted::After(Protocol::Study);
     let found = orbit_run(&study, &wanted).expect("an orbit");
     let json = found.json(&study);
     assert_eq!(json["verdict"], "stable", "{json}");
@@ -324,8 +322,8 @@ fn belts_with_a_state_are_answered_as_their_systems() {
         (verbs(&Study::from(&belt(SLIDER_ON_A_BELT))), verbs(&system(SLIDER).into()));
     let pairs = [
         (
-            of_belt.orbit(&Wanted::After(SystemProtocol::Rest)).expect("an orbit").json(),
-            of_system.orbit(&Wanted::After(SystemProtocol::Rest)).expect("an orbit").json(),
+            of_belt.orbit(&Wanted::After(Protocol::Rest)).expect("an orbit").json(),
+            of_system.orbit(&Wanted::After(Protocol::Rest)).expect("an orbit").json(),
         ),
         (
             of_belt.attractor(&AttractorRequest::default()).expect("an end").json(),
@@ -341,21 +339,20 @@ fn belts_with_a_state_are_answered_as_their_systems() {
     assert_eq!(of_belt.orbit(&near).expect("an orbit").json()["verdict"], "stable");
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        from: 0.3,
-        to: 0.8,
+        window: (0.3, 0.8),
         protocols: vec![Protocol::Rest],
-        ramp: 0.0,
+        ..ThresholdsRequest::default()
     };
-    let a = of_belt.thresholds(request.clone()).expect("thresholds").json();
-    let b = MotionThresholdsRequest {
+    let a = of_belt.thresholds(&request).expect("thresholds").json();
+    let b = ThresholdsRequest {
         parameter: "dither[0].amplitude".to_owned(),
         window: (0.3, 0.8),
         near: None,
-        protocols: vec![SystemProtocol::Rest],
+        protocols: vec![Protocol::Rest],
         ramp: 0.0,
     };
-    let b = of_system.thresholds_of_system(&b).expect("thresholds").json();
-    assert_eq!(a["thresholds"], b["thresholds"], "{a}");
+    let b = of_system.thresholds(&b).expect("thresholds").json();
+    assert_eq!(a["local"], b["local"], "{a}");
 }
 
 /// Units of a belt of 2 kg on 200 N/m, ω₀ = 10 rad/s, and the same numbers in both forms.
@@ -442,16 +439,15 @@ fn belts_with_a_state_are_answered_in_si() {
         let ask = |study: &BeltStudy, parameter: &str, unit: f64| {
             let request = ThresholdsRequest {
                 parameter: parameter.to_owned(),
-                from: 0.3 * unit,
-                to: 1.6 * unit,
+                window: (0.3 * unit, 1.6 * unit),
                 protocols: Vec::new(),
-                ramp: 0.0,
+                ..ThresholdsRequest::default()
             };
-            verbs(&Study::from(study)).thresholds(request).expect("thresholds").json()
+            verbs(&Study::from(study)).thresholds(&request).expect("thresholds").json()
         };
         let a = ask(&si, "dither.amplitude_n", 200.0);
         let b = ask(&scaled, "dither.amplitude", 1.0);
-        let lists = [&a, &b].map(|json| json["thresholds"].as_array().expect("a list").clone());
+        let lists = [&a, &b].map(|json| json["local"].as_array().expect("a list").clone());
         assert!(lists[0].len() == lists[1].len() && a["ending"] == b["ending"], "{a} {b}");
         for (one, other) in lists[0].iter().zip(&lists[1]) {
             close(&one["value"], &other["value"], 200.0);
@@ -496,14 +492,13 @@ fn thresholds_just_beyond_a_border_do_not_depend_on_the_window() {
     for (from, to) in [(0.2, 4.0), (0.5, 4.0), (0.2, 2.0), (0.01, 20.0), (0.9, 1.1)] {
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            from,
-            to,
+            window: (from, to),
             protocols: Vec::new(),
-            ramp: 0.0,
+            ..ThresholdsRequest::default()
         };
-        let json = verbs.thresholds(request).expect("thresholds").json();
-        assert_eq!(json["thresholds"][0]["kind"], "neimark-sacker", "{from} to {to}: {json}");
-        found.push(number(&json["thresholds"][0]["value"]));
+        let json = verbs.thresholds(&request).expect("thresholds").json();
+        assert_eq!(json["local"][0]["kind"], "neimark-sacker", "{from} to {to}: {json}");
+        found.push(number(&json["local"][0]["value"]));
     }
     assert!(found.iter().all(|value| (value / found[0] - 1.0).abs() < 1e-9), "{found:?}");
 }
@@ -514,7 +509,7 @@ fn the_response_of_a_belt_with_a_slider_is_that_of_its_motion() {
     let study = belt(SLIDER_ON_A_BELT);
     let found = response::run(&study).expect("a response");
     let orbit = verbs(&system(SLIDER).into());
-    let orbit = orbit.orbit(&Wanted::After(SystemProtocol::Rest)).expect("an orbit").json();
+    let orbit = orbit.orbit(&Wanted::After(Protocol::Rest)).expect("an orbit").json();
     let json = found.json(&study);
     assert!(found.response.settled, "{json}");
     let sticks = number(&orbit["contacts"][0]["stick_fraction"]);

@@ -7,8 +7,8 @@ use quell::Study;
 use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::orbit::Wanted;
-use quell::run::system::protocol::SystemProtocol;
-use quell::run::system::thresholds::MotionThresholdsRequest;
+use quell::run::protocol::Protocol;
+use quell::run::thresholds::ThresholdsRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
 use serde_json::Value as Json;
 
@@ -231,16 +231,16 @@ fn waveforms_know_the_state_in_their_exact_amplitudes() {
 
 /// An amplitude is a threshold of the same mass as a system, with the state of its contact.
 fn assert_near_a_threshold(law: (&str, &str), amplitude: f64) {
-    let request = MotionThresholdsRequest {
+    let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
         window: (0.9 * amplitude, 1.1 * amplitude),
         near: None,
-        protocols: Vec::<SystemProtocol>::new(),
+        protocols: Vec::<Protocol>::new(),
         ramp: 0.0,
     };
     let one = verbs(&study(&system(law, 1.0)));
-    let thresholds = one.thresholds_of_system(&request).expect("thresholds").json();
-    let list = thresholds["local"].as_array().or(thresholds["thresholds"].as_array());
+    let thresholds = one.thresholds(&request).expect("thresholds").json();
+    let list = thresholds["local"].as_array();
     let list = list.unwrap_or_else(|| panic!("{thresholds}"));
     let off = |one: &Json| (number(&one["value"]) / amplitude - 1.0).abs();
     let near = list.iter().map(off).fold(f64::INFINITY, f64::min);

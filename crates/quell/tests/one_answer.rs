@@ -53,8 +53,9 @@ fn designs_waveforms_and_thresholds_of_a_slider_agree() {
     let verbs = verbs(&study);
     let thresholds = |from: f64, to: f64| {
         let parameter = "dither.amplitude_n".to_owned();
-        let request = ThresholdsRequest { parameter, from, to, ..ThresholdsRequest::default() };
-        verbs.thresholds(request).expect("thresholds").facts()
+        let request =
+            ThresholdsRequest { parameter, window: (from, to), ..ThresholdsRequest::default() };
+        verbs.thresholds(&request).expect("thresholds").facts()
     };
     let values: Vec<f64> = [(10.0, 2000.0), (306.0, 340.0), (320.0, 350.0)]
         .map(|(from, to)| number(&thresholds(from, to)["local"][0]["value"]))
@@ -117,11 +118,10 @@ fn the_exact_amplitude_of_a_system_is_its_threshold() {
     let exact = number(&found["waveforms"][0]["exact_amplitude"]);
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        from: 0.9 * exact,
-        to: 1.1 * exact,
+        window: (0.9 * exact, 1.1 * exact),
         ..ThresholdsRequest::default()
     };
-    let thresholds = verbs(&study).thresholds(request).expect("thresholds").facts();
+    let thresholds = verbs(&study).thresholds(&request).expect("thresholds").facts();
     let value = number(&thresholds["local"][0]["value"]);
     assert!((value / exact - 1.0).abs() < 1e-6, "{value} {exact}");
     let sentence = found["sentence"].as_str().expect("a sentence");

@@ -6,12 +6,12 @@ use quell::BeltStudy;
 use quell::kind::system_of;
 use quell::run::orbit::{FoundMotion, Wanted, run as orbit_of};
 use quell::run::simulate::{Options, run as simulate};
-use quell::run::thresholds::{ThresholdKind, ThresholdsRequest, run as thresholds};
+use quell::run::thresholds::{ThresholdsRequest, run as thresholds};
 use quell_dynamics::motion::RecordedEvent;
 use quell_dynamics::motion::orbit::limit_cycles;
 use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_dynamics::simulation::EventKind;
-use quell_model::units::Quantity;
 use serde_json::Value;
 
 /// The independent integrator agrees with closed forms to 2e-12; periods and positions are of order 10.
@@ -162,15 +162,14 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
     let key = "belt.belt_velocity_m_per_s";
     let question = ThresholdsRequest {
         parameter: key.to_owned(),
-        from: 0.15,
-        to: 0.25,
+        window: (0.15, 0.25),
         ..ThresholdsRequest::default()
     };
-    let found = thresholds(&study, question).expect("followed");
-    let scales = study.scales().expect("SI");
-    let hopf = &found.local.thresholds[0];
-    assert_eq!((found.local.thresholds.len(), hopf.kind), (1, ThresholdKind::Hopf));
-    close(scales.to_units(Quantity::Velocity, hopf.value), number(&case, "printed", "hopf"), 1e-9);
+    let system = system_of(&(&study).into(), "thresholds").expect("a system");
+    let found = thresholds(&system, &question).expect("followed").local.expect("steady sliding");
+    let hopf = &found.thresholds[0];
+    assert_eq!((found.thresholds.len(), hopf.kind), (1, ThresholdKind::Hopf));
+    close(hopf.value, number(&case, "printed", "hopf"), 1e-9);
 
     // Cycles at this velocity: the squeal and the smaller unstable cycle, or none.
     let count = |velocity: f64| {

@@ -9,9 +9,9 @@ use quell::kind::verbs;
 use quell::run::basins::StartLayout;
 use quell::run::bifurcation::SweepRequest;
 use quell::run::orbit::Wanted;
+use quell::run::protocol::{Protocol, read_state_of};
 use quell::run::system::basins::{PlaneRequest, read_plane};
-use quell::run::system::protocol::{SystemProtocol, read_state_of};
-use quell::run::system::thresholds::MotionThresholdsRequest;
+use quell::run::thresholds::ThresholdsRequest;
 use quell::run::varied::Range;
 use quell::sweep::Running;
 use serde_json::Value as Json;
@@ -144,7 +144,7 @@ fn runs_and_shooting_find_the_same_orbit() {
     let reference = reference();
     let case = list(&reference["orbits"]).iter().find(|case| case["verdict"] == "stable");
     let text = case.expect("a stable orbit")["study"].as_str().expect("a study");
-    let rest = orbit(text, &Wanted::After(SystemProtocol::Rest));
+    let rest = orbit(text, &Wanted::After(Protocol::Rest));
     assert_eq!(rest["response"], "reached");
     let Ok(system) = study(text).system() else { panic!("a system") };
     let names = list(&rest["state_names"]).iter().zip(list(&rest["state"]));
@@ -172,16 +172,16 @@ fn a_study_can_start_on_its_limit_cycle() {
     assert!((number(&found["period"]) - number(&case["period"])).abs() <= ACCURACY, "{found}");
 }
 
-fn thresholds(text: &str, request: &MotionThresholdsRequest) -> Json {
-    let answer = verbs(&study(text)).thresholds_of_system(request);
+fn thresholds(text: &str, request: &ThresholdsRequest) -> Json {
+    let answer = verbs(&study(text)).thresholds(request);
     answer.unwrap_or_else(|why| panic!("{why:?}")).json()
 }
 
-fn request_of(case: &Json) -> MotionThresholdsRequest {
-    MotionThresholdsRequest {
+fn request_of(case: &Json) -> ThresholdsRequest {
+    ThresholdsRequest {
         parameter: case["parameter"].as_str().expect("a path").to_owned(),
         window: (number(&case["from"]), number(&case["to"])),
-        ..MotionThresholdsRequest::default()
+        ..ThresholdsRequest::default()
     }
 }
 
@@ -193,7 +193,7 @@ fn thresholds_of_dithered_systems_are_those_of_the_reference() {
         println!("{name}: {}", found["sentence"]);
         let wanted = number(&case["value"]);
         let off = |found: &&Json| (number(&found["value"]) - wanted).abs() / wanted;
-        let threshold = list(&found["thresholds"]).iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let threshold = list(&found["local"]).iter().min_by(|a, b| off(a).total_cmp(&off(b)));
         let threshold = threshold.unwrap_or_else(|| panic!("{name}: no threshold"));
         assert!(off(&threshold) <= 1e-6, "{name}: {threshold}");
         assert_eq!(threshold["kind"], case["kind"], "{name}");
@@ -210,9 +210,9 @@ fn thresholds_of_dithered_systems_are_those_of_the_reference() {
 fn runs_change_where_their_orbit_does() {
     let reference = reference();
     let case = &reference["thresholds"][0];
-    let request = MotionThresholdsRequest {
+    let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        protocols: vec![SystemProtocol::Rest],
+        protocols: vec![Protocol::Rest],
         ..request_of(case)
     };
     let found = thresholds(case["study"].as_str().expect("a study"), &request);

@@ -6,9 +6,10 @@ use quell::Study;
 use quell::kind::verbs;
 use quell::run::basins::{BasinsRequest, StartLayout};
 use quell::run::bifurcation::SweepRequest;
-use quell::run::curves::CurvesRequest;
+use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::ThresholdsRequest;
+use quell::run::thresholds::curves::CurvesRequest;
 use quell::run::varied::Range;
 use quell::sweep::Running;
 use serde_json::Value as Json;
@@ -155,13 +156,12 @@ fn thresholds_of_equal_parts_are_found() {
     let two = uncoupled();
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        from: 1.0,
-        to: 6.0,
+        window: (1.0, 6.0),
         ..Default::default()
     };
-    let found = verbs(&two).thresholds(request).unwrap_or_else(|why| panic!("{why:?}")).json();
+    let found = verbs(&two).thresholds(&request).unwrap_or_else(|why| panic!("{why:?}")).json();
     println!("{}", found["sentence"]);
-    let thresholds = list(&found["thresholds"]);
+    let thresholds = list(&found["local"]);
     let values: Vec<f64> = thresholds.iter().filter_map(|at| at["value"].as_f64()).collect();
     assert_eq!(values.len(), 1, "{found}");
     assert!((values[0] - 4.322_392_624).abs() < 1e-7, "{}", values[0]);
@@ -241,18 +241,56 @@ fn shares_of_random_starts_are_those_of_the_belt() {
     assert_eq!(own["ends"], other["ends"]);
 }
 
+/// Without dither a run from steady sliding changes at the Hopf bifurcation, one from squeal where the limit cycles end, and where nothing
+/// squeals it starts from steady sliding; as a belt and as a system.
+#[test]
+fn runs_without_dither_change_where_the_squeal_ends() {
+    let found = |study: &Study, parameter: &str| {
+        let request = ThresholdsRequest {
+            parameter: parameter.to_owned(),
+            window: (0.01, 3.0),
+            protocols: vec![Protocol::Sliding, Protocol::Squeal],
+            ..ThresholdsRequest::default()
+        };
+        verbs(study).thresholds(&request).unwrap_or_else(|why| panic!("{why:?}")).json()
+    };
+    let own = found(&belt("decreasing", 1.0, &dither(0.0)), "belt.belt_velocity");
+    let other = found(&system("decreasing", 1.0, &dither(0.0)), "contact.belt.belt_velocity");
+    for name in ["local", "from_sliding", "from_squeal"] {
+        let [a, b] = [&own, &other].map(|found| list(&found[name]));
+        assert_eq!(a.len(), b.len(), "{name}");
+        for (a, b) in a.iter().zip(b) {
+            let [a, b] = [a, b].map(|at| at["value"].as_f64().expect("a number"));
+            assert!((a - b).abs() <= 1e-12 * a, "{name}: {a} {b}");
+        }
+    }
+    let [hopf] = list(&own["from_sliding"]) else { panic!("{own}") };
+    assert_eq!((&hopf["kind"], &hopf["becomes"]), (&"hopf".into(), &"quenched".into()));
+    let [run, local] = [hopf, &own["local"][0]].map(|at| at["value"].as_f64().expect("a number"));
+    assert!((run - local).abs() <= 1e-10, "{run} {local}");
+    let [end] = list(&own["from_squeal"]) else { panic!("{own}") };
+    let end = end["value"].as_f64().expect("a number");
+    let squeals = |velocity: f64| {
+        let wanted = Wanted::After(Protocol::Squeal);
+        verbs(&belt("decreasing", velocity, &dither(0.0))).orbit(&wanted).is_ok()
+    };
+    assert!(squeals(end - 1e-3) && !squeals(end + 1e-3), "{end}");
+    let warnings = own["warnings"].to_string();
+    assert!(warnings.contains("no squeal was found"), "{warnings}");
+}
+
 /// Runs whose dither is ramped up stop being quenched at the same amplitude as those of the belt.
 #[test]
 fn ramped_runs_change_where_those_of_the_belt_do() {
     let thresholds = |study: &Study| {
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            from: 0.42,
-            to: 0.56,
+            window: (0.42, 0.56),
             protocols: vec![Protocol::Squeal],
             ramp: 100.0,
+            ..ThresholdsRequest::default()
         };
-        let found = verbs(study).thresholds(request).unwrap_or_else(|why| panic!("{why:?}"));
+        let found = verbs(study).thresholds(&request).unwrap_or_else(|why| panic!("{why:?}"));
         let found = found.json();
         println!("{}", found["sentence"]);
         assert_eq!(found["ramp"], 100.0);

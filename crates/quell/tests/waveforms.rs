@@ -157,14 +157,13 @@ fn a_burst_without_pause_has_the_answers_of_its_carrier() {
         }
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            from: 0.2,
-            to: 1.4,
+            window: (0.2, 1.4),
             protocols: Vec::new(),
-            ramp: 0.0,
+            ..ThresholdsRequest::default()
         };
         let thresholds = belts
             .each_ref()
-            .map(|study| verbs(study).thresholds(request.clone()).expect("thresholds").json());
+            .map(|study| verbs(study).thresholds(&request).expect("thresholds").json());
         assert_eq!(thresholds[0], thresholds[1], "{carrier}");
         let maps = belts.each_ref().map(|study| {
             let asked = MapQuantity::named("residual-vibration", "--quantity").expect("a quantity");

@@ -4,7 +4,7 @@ use clap::{Args, ValueHint};
 use quell::kind::{system_of, verbs};
 use quell::run::exponents::ExponentTimes;
 use quell::run::found_attractor::AttractorRequest;
-use quell::run::system::protocol::read_state_of;
+use quell::run::protocol::read_state_of;
 use quell::study::SystemStudy;
 use quell::{Failure, quantity};
 

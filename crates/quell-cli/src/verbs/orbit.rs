@@ -4,7 +4,7 @@ use clap::Args;
 use quell::Failure;
 use quell::kind::{system_of, verbs};
 use quell::run::orbit::Wanted;
-use quell::run::system::protocol::{SystemProtocol, read_state_of};
+use quell::run::protocol::{Protocol, read_state_of};
 use quell::study::SystemStudy;
 
 use crate::answer::Answer;
@@ -56,13 +56,13 @@ impl Arguments {
         let start = read("--start", &self.start);
         let (near, start) = complaints.finish(near.zip(start))?;
         let flags = [
-            (self.from_rest, SystemProtocol::Rest),
-            (self.from_sliding, SystemProtocol::Sliding),
-            (self.from_squeal, SystemProtocol::Squeal),
+            (self.from_rest, Protocol::Rest),
+            (self.from_sliding, Protocol::Sliding),
+            (self.from_squeal, Protocol::Squeal),
         ];
         let flag = flags.into_iter().find_map(|(asked, protocol)| asked.then_some(protocol));
         let periods = self.periods;
-        Ok(match (flag.or(start.map(SystemProtocol::From)), near) {
+        Ok(match (flag.or(start.map(Protocol::From)), near) {
             (Some(protocol), _) => Wanted::After(protocol),
             (None, Some(state)) => Wanted::Near { state, periods },
             (None, None) => Wanted::Base { periods },

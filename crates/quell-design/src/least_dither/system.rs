@@ -99,7 +99,7 @@ impl SystemPlant<'_> {
             },
             DesignStart::Local | DesignStart::Rest => vec![0.0; without.state_size()],
         };
-        let start = |_: &System| Ok(state.clone());
+        let start = |_: f64, _: &System| Ok(state.clone());
         let run = VariedRun { start: &start, ramp: 0.0, at: &system, most_steps: STEPS_OF_A_RUN };
         answer(&run).map(Some)
     }
@@ -154,10 +154,10 @@ fn in_step(
     let outcomes: Vec<(f64, RunOutcome)> =
         values_tried((begin, end), steps).map(|value| (value, run.outcome(value))).collect();
     // A run that does not settle is not known to be quiet.
-    let quiet = |outcome: &RunOutcome| outcome.is_in_step() == Some(true);
+    let quiet = |outcome: &RunOutcome| outcome.is_quiet() == Some(true);
     if !outcomes.iter().any(|(_, outcome)| quiet(outcome))
         && let Some((amplitude, RunOutcome::Unknown(why))) =
-            outcomes.iter().find(|(_, outcome)| outcome.is_in_step().is_none())
+            outcomes.iter().find(|(_, outcome)| outcome.is_quiet().is_none())
     {
         return Err(format!("the run at the amplitude {amplitude}: {why}"));
     }
@@ -263,7 +263,7 @@ impl Plant for SystemPlant<'_> {
             DesignStart::Rest | DesignStart::Squeal => {
                 let outcome = |run: &VariedRun<'_>| match run.outcome(amplitude) {
                     RunOutcome::Unknown(why) => Err(why),
-                    known => Ok(known.is_in_step() == Some(true)),
+                    known => Ok(known.is_quiet() == Some(true)),
                 };
                 stable && self.about_runs(at, outcome)?.unwrap_or(true)
             }

@@ -43,4 +43,5 @@ pub use rotation::{Ratio, Rotation};
 pub use section::StroboscopicSection;
 pub use settings::AttractorSettings;
 pub use settle::{Patience, SettleOutcome, Settled, settle, settle_many};
+pub(crate) use switches::reached_at;
 pub use switches::{Reached, SWITCH_CLOSENESS, Switch, Switches, ramped, reached, switches};

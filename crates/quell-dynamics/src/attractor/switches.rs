@@ -9,6 +9,7 @@
 
 use quell_model::Belt;
 
+use super::base_response::BaseResponse;
 use super::measure::is_quiescent;
 use super::settings::AttractorSettings;
 use super::settle::{Patience, SettleOutcome, Settled, settle};
@@ -78,6 +79,11 @@ impl Reached {
 /// [`NoOrbit`]: no common period, or the engine stopped; also if the run has not settled and the base response, to which it may
 /// be converging, could not be followed to the dither's amplitude.
 pub fn reached(belt: &Belt, start: Start) -> Result<Reached, NoOrbit> {
+    Ok(reached_at(belt, start)?.0)
+}
+
+/// [`reached`] with a state of the response at τ = 0 modulo the period: of the base response its own, otherwise the last one of the run.
+pub(crate) fn reached_at(belt: &Belt, start: Start) -> Result<(Reached, Start), NoOrbit> {
     let settings = AttractorSettings::new(belt)?;
     let is_unstable =
         settings.base.as_ref().is_ok_and(|base| base.verdict == OrbitVerdict::Unstable);
@@ -85,8 +91,12 @@ pub fn reached(belt: &Belt, start: Start) -> Result<Reached, NoOrbit> {
     let settled = settle(&settings, start, patience).map_err(NoOrbit::Stalled)?;
     match (Reached::of(&settings, &settled).map_err(NoOrbit::Stalled)?, &settings.base) {
         (Reached::Unsettled, Err(why)) if !why.is_absence() => Err(*why),
-        (Reached::Unsettled, _) if is_unstable => Ok(Reached::Elsewhere),
-        (reached, _) => Ok(reached),
+        (Reached::Unsettled, _) if is_unstable => Ok((Reached::Elsewhere, settled.state)),
+        (Reached::Base, Ok(base)) => {
+            let BaseResponse { displacement, velocity, .. } = *base;
+            Ok((Reached::Base, Start { time: 0.0, displacement, velocity }))
+        }
+        (reached, _) => Ok((reached, settled.state)),
     }
 }
 

@@ -9,7 +9,6 @@
 //! period map of a belt, and is the part to be rewritten for a model with more masses and contacts.
 //!
 //! * [`threshold`]: the values of a parameter at which the base response gains or loses stability;
-//! * [`curve`]: curves of thresholds in two parameters;
 //! * [`cycle`]: the limit cycles of an undithered belt, stable or not, and the limit sets of undithered runs.
 //!
 //! | file | contents |
@@ -19,12 +18,10 @@
 //! | `period_map` | one period with its derivative, and the multipliers |
 //! | `periodic_orbit`, `verdict`, `no_orbit` | a periodic response, its stability, and why none was found |
 //! | `accuracy` | the errors of an orbit and of its multipliers |
-//! | `threshold_curve`, `curve` | thresholds followed over a second parameter |
 //! | `shooting` | an orbit near a state, or continued from steady sliding |
 
 mod accuracy;
 mod collocation;
-pub mod curve;
 pub mod cycle;
 pub mod family;
 mod no_orbit;
@@ -33,7 +30,6 @@ mod period_map;
 mod periodic_orbit;
 mod shooting;
 pub mod threshold;
-pub(crate) mod threshold_curve;
 mod variation;
 mod verdict;
 

@@ -80,14 +80,6 @@ class NativeStudy:
         start: tuple[str, str] | list[tuple[str, str]] | None,
         times: tuple[str | None, str | None] | None,
     ) -> NativeAnswer: ...
-    def thresholds_of_system(
-        self,
-        parameter: str,
-        range: tuple[str, str],
-        runs: tuple[list[str], str],
-        start: list[tuple[str, str]] | None,
-        near: tuple[list[tuple[str, str]], int] | None,
-    ) -> NativeAnswer: ...
     def basins_in_plane(
         self,
         plane: str,
@@ -100,9 +92,8 @@ class NativeStudy:
         self,
         parameter: str,
         range: tuple[str, str],
-        protocols: list[str],
-        start: tuple[str, str] | None,
-        ramp: str,
+        runs: tuple[list[str], tuple[str, str] | list[tuple[str, str]] | None, str],
+        near: tuple[tuple[str, str] | list[tuple[str, str]], int] | None,
     ) -> NativeAnswer: ...
     def threshold_curves(
         self, parameter: str, range: tuple[str, str], along: str, between: tuple[str, str]

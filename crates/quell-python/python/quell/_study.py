@@ -423,7 +423,7 @@ class Study(CheckedStudy):
         from_squeal: bool = False,
         start: State | Mapping[str, Number] | None = None,
         ramp: Number = 0.0,
-        near: Mapping[str, Number] | None = None,
+        near: State | Mapping[str, Number] | None = None,
         periods: int = 1,
     ) -> results.Thresholds: ...
 
@@ -446,12 +446,12 @@ class Study(CheckedStudy):
         ramp: Number = 0.0,
         along: str | None = None,
         between: State | None = None,
-        near: Mapping[str, Number] | None = None,
+        near: State | Mapping[str, Number] | None = None,
         periods: int = 1,
     ) -> results.Thresholds | results.ThresholdCurves:
         """Exact values of a parameter at which dither starts or stops quenching, or their curves in two parameters.
 
-        System without dither: the values at which steady sliding becomes stable or unstable, those of :meth:`stability`.
+        Without dither and without runs: the values at which steady sliding becomes stable or unstable, those of :meth:`stability`.
 
         Parameters
         ----------
@@ -462,39 +462,21 @@ class Study(CheckedStudy):
             The range to search, in the unit of that key or as texts with units such as ``"5kN"`` (``--from``
             and ``--to`` on the command line).
         from_rest, from_sliding, from_squeal, start :
-            Also find thresholds of runs from rest, from steady sliding, from full squeal, or from a state (x, x′), which is
-            in m and m/s in a study in SI.
+            Also find thresholds of runs from rest, from steady sliding, from full squeal, or from a state: (x, x′) of one mass, or
+            numbers such as ``{"x": 0.1, "velocity.x": -2}`` that replace those of the study's start.
         ramp :
-            Time over which the dither of these runs grows [default: it is switched on]: τ, in a study in SI seconds, of a
-            system in its own unit of time.
+            Time over which the dither of these runs grows [default: it is switched on]: τ, in a study with units seconds.
         along, between :
             A second parameter, given like the first, and its range: each local threshold is continued as a curve.
         near, periods :
-            System: numbers of a state near which the periodic motion to follow is searched at the first value, such as
-            ``{"x": 0.1, "velocity.x": -2}``, and its number of dither periods [default: the base response]. ``start`` is
-            given in the same way.
+            A state near which the periodic motion to follow is searched at the first value, given like ``start``, and its
+            number of dither periods [default: the base response].
         """
         arguments = Arguments()
-        if near is not None or isinstance(start, Mapping):
-            flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
-            asked = [name for name, wanted in flags.items() if wanted]
-            path = arguments.text("parameter", parameter, A_NUMBER_OF_A_SYSTEM)
-            ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
-            count = arguments.whole("periods", periods, 1, 1000)
-            pairs, begin = arguments.named("near", near), arguments.named("start", start)
-            time = arguments.quantity("ramp", ramp, "a time ≥ 0")
-            if along is not None or between is not None:
-                arguments.wrong.append(complaint("along", along, "given without near, starts and ramp", "conflict"))
-            if near is not None and (asked or start is not None or time != repr(0.0)):
-                arguments.wrong.append(complaint("near", near, "given without starts and ramp", "conflict"))
-            arguments.done()
-            native = self._native.thresholds_of_system(
-                path, ends, (asked, time), None if start is None else begin, None if near is None else (pairs, count)
-            )
-            return results.Thresholds._of(self, native)
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
         ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
-        state = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
+        count = arguments.whole("periods", periods, 1, 1000)
+        begin, motion = arguments.state("start", start), arguments.state("near", near)
         time = arguments.quantity("ramp", ramp, "a time ≥ 0")
         second = None if along is None else arguments.text("along", along, "path of a number, such as belt.belt_velocity")
         window = None if between is None else arguments.quantities("between", between, "two numbers, the second above the first")
@@ -502,12 +484,16 @@ class Study(CheckedStudy):
         asked = [name for name, wanted in flags.items() if wanted]
         if (along is None) != (between is None):
             arguments.wrong.append(complaint("along", along, "given together with between", "conflict"))
-        if along is not None and (asked or start is not None or time != repr(0.0)):
-            arguments.wrong.append(complaint("along", along, "given without starts and ramp", "conflict"))
+        has_runs = bool(asked) or start is not None or time != repr(0.0)
+        if along is not None and (has_runs or near is not None):
+            arguments.wrong.append(complaint("along", along, "given without near, starts and ramp", "conflict"))
+        if near is not None and has_runs:
+            arguments.wrong.append(complaint("near", near, "given without starts and ramp", "conflict"))
         arguments.done()
         if second is not None and window is not None:
             return results.ThresholdCurves._of(self, self._native.threshold_curves(path, ends, second, window))
-        return results.Thresholds._of(self, self._native.thresholds(path, ends, asked, state, time))
+        followed = None if motion is None else (motion, count)
+        return results.Thresholds._of(self, self._native.thresholds(path, ends, (asked, begin, time), followed))
 
     @overload
     def map(

@@ -2,7 +2,7 @@
 
 use quell::kind::{system_of, verbs};
 use quell::run::orbit::Wanted;
-use quell::run::system::protocol::SystemProtocol;
+use quell::run::protocol::Protocol;
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
@@ -20,12 +20,12 @@ pub(crate) fn run(
     let near = near.map(|given| given.numbers(&system, "--near")).transpose()?;
     let start = start.map(|given| given.numbers(&system, "--start")).transpose()?;
     let named = match after {
-        Some("from_rest") => Some(SystemProtocol::Rest),
-        Some("from_sliding") => Some(SystemProtocol::Sliding),
-        Some(_) => Some(SystemProtocol::Squeal),
+        Some("from_rest") => Some(Protocol::Rest),
+        Some("from_sliding") => Some(Protocol::Sliding),
+        Some(_) => Some(Protocol::Squeal),
         None => None,
     };
-    let wanted = match (named.or(start.map(SystemProtocol::From)), near) {
+    let wanted = match (named.or(start.map(Protocol::From)), near) {
         (Some(protocol), _) => Wanted::After(protocol),
         (None, Some(state)) => Wanted::Near { state, periods },
         (None, None) => Wanted::Base { periods },

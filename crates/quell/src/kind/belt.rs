@@ -8,10 +8,11 @@ use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::recorded_motion::ObservedMotion;
 use crate::run::system::response::ResponseRequest;
+use crate::run::thresholds::ThresholdsRequest;
+use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
-    actuator, atlas, basins, belt_system, bifurcation, curves, describing, design, friction,
-    noise_response, orbit, probability, ramp, response, simulate, stability, thresholds, waveforms,
-    window,
+    actuator, atlas, basins, belt_system, bifurcation, describing, design, friction,
+    noise_response, orbit, probability, ramp, response, simulate, stability, waveforms, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -108,18 +109,12 @@ impl Verbs for BeltStudy {
         belt_system::of(self, "orbit")?.orbit(wanted)
     }
 
-    fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
-        if let Some(system) = belt_system::of_state(self, "thresholds")? {
-            return system.thresholds_of_system(&belt_system::thresholds(self, request));
-        }
-        answer(self, thresholds::run(self, request))
+    fn thresholds(&self, request: &ThresholdsRequest) -> Reply {
+        belt_system::of(self, "thresholds")?.thresholds(request)
     }
 
-    fn threshold_curves(&self, request: &curves::CurvesRequest) -> Reply {
-        if let Some(system) = belt_system::of_state(self, "thresholds")? {
-            return system.threshold_curves(request);
-        }
-        answer(self, curves::run(self, request))
+    fn threshold_curves(&self, request: &CurvesRequest) -> Reply {
+        belt_system::of(self, "thresholds")?.threshold_curves(request)
     }
 
     fn design(&self) -> Reply {

@@ -16,9 +16,10 @@ use crate::run::recorded_motion::ObservedMotion;
 use crate::run::system::basins::PlaneRequest;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
-use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::{basins, belt_system, bifurcation, curves, simulate, thresholds};
+use crate::run::thresholds::ThresholdsRequest;
+use crate::run::thresholds::curves::CurvesRequest;
+use crate::run::{basins, belt_system, bifurcation, simulate};
 use crate::study::{
     DiscSetup, Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time,
 };
@@ -190,25 +191,16 @@ pub trait Verbs: Send + Sync {
     ///
     /// # Errors
     /// A kind without this verb; as [`thresholds::run`].
-    fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
+    fn thresholds(&self, request: &ThresholdsRequest) -> Reply {
         let _ = request;
         Err(self.lacks("thresholds"))
-    }
-
-    /// Thresholds of one parameter of a system.
-    ///
-    /// # Errors
-    /// A kind without this verb; as [`crate::run::system::thresholds::run`].
-    fn thresholds_of_system(&self, request: &MotionThresholdsRequest) -> Reply {
-        let _ = request;
-        Err(self.lacks("thresholds with named states"))
     }
 
     /// Curves of thresholds in two parameters.
     ///
     /// # Errors
     /// A kind without this verb; as [`curves::run`].
-    fn threshold_curves(&self, request: &curves::CurvesRequest) -> Reply {
+    fn threshold_curves(&self, request: &CurvesRequest) -> Reply {
         let _ = request;
         Err(self.lacks("thresholds"))
     }

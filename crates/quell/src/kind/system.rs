@@ -9,7 +9,6 @@ use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::basins::BasinsRequest;
 use crate::run::bifurcation::SweepRequest;
-use crate::run::curves::CurvesRequest;
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::recorded_motion::ObservedMotion;
@@ -17,17 +16,16 @@ use crate::run::simulate::Options;
 use crate::run::system::basins::{PlaneRequest, default_plane};
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
-use crate::run::system::thresholds::{
-    MotionThresholdsRequest, is_dithered_within, without_motions,
-};
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    actuator, basins, curves, design, exact, friction, measured, modes, reach, response, simulate,
-    stability, thresholds, tracked, waveforms,
+    actuator, basins, design, exact, friction, measured, modes, reach, response, simulate,
+    stability, tracked, waveforms,
 };
-use crate::run::thresholds::ThresholdsRequest;
+use crate::run::thresholds::curves::{self, CurvesRequest};
+use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
-    bifurcation, describing, found_attractor, noise_response, orbit, probability, ramp, window,
+    bifurcation, describing, found_attractor, noise_response, orbit, probability, ramp, thresholds,
+    window,
 };
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;
@@ -177,16 +175,11 @@ impl Verbs for SystemStudy {
         answer(self, found_attractor::run(self, request))
     }
 
-    fn thresholds(&self, request: ThresholdsRequest) -> Reply {
-        self.thresholds_of_system(&MotionThresholdsRequest::of(request)?)
-    }
-
-    fn thresholds_of_system(&self, request: &MotionThresholdsRequest) -> Reply {
-        if is_dithered_within(self, request) {
-            return answer(self, thresholds::run(self, request));
+    fn thresholds(&self, request: &ThresholdsRequest) -> Reply {
+        if by_eigenvalues(self, request)? {
+            return answer(self, tracked::run(self, &request.tracked()));
         }
-        without_motions(request)?;
-        answer(self, tracked::run(self, &request.tracked()))
+        answer(self, thresholds::run(self, request))
     }
 
     fn bifurcation(&self, request: &SweepRequest, running: Running<'_>) -> Reply {

@@ -1,72 +1,135 @@
-//! `thresholds`: exact values of a parameter at which the response changes, and curves of thresholds in two parameters.
+//! `thresholds`: values of a parameter at which the response changes, and curves of thresholds in two parameters.
 
 use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+use quell_dynamics::motion::orbit::{ThresholdCurve, ThresholdCurveEnd};
+
 use super::Presented;
+use super::system::width_of;
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::curves::{Curves, ThresholdCurve, ThresholdCurveEnd};
-use crate::run::thresholds::{Signature, TRIED, Thresholds, becomes, side};
-use crate::run::varied::Named;
-use crate::study::{BeltSetup, BeltStudy};
+use crate::run::thresholds::curves::{Curves, kind_in_words};
+use crate::run::thresholds::{TRIED, Thresholds, events_in_words, side};
+use crate::study::{SystemSetup, SystemStudy};
 
-impl Presented<BeltSetup> for Thresholds {
-    fn json(&self, study: &BeltStudy) -> Json {
+impl Presented<SystemSetup> for Thresholds {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }
 
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
         Some(self.sentence(study))
     }
 
-    fn table(&self, study: &BeltStudy) -> String {
-        table(study, self)
+    fn table(&self, study: &SystemStudy) -> String {
+        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
+        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let (path, (from, to)) = (&self.request.parameter, self.request.window);
+        let [from, to] = [from, to].map(|value| self.value(study, value));
+        let mut text = format!("\n{path} from {from} to {to}, {}:\n", self.subject());
+        if self.local.as_ref().is_ok_and(|local| local.thresholds.is_empty()) {
+            text += "  no local threshold\n";
+        }
+        let thresholds = self.local.iter().flat_map(|local| &local.thresholds);
+        let of_runs = self.runs.iter().flat_map(|(_, switches)| &switches.changes);
+        let of_events = self.local.iter().flat_map(|local| &local.changes);
+        let shown = thresholds
+            .map(|found| found.value)
+            .chain(of_runs.map(|change| change.value))
+            .chain(of_events.map(|change| change.value));
+        let values = width_of(shown, &unit);
+        let found = self.local.iter().flat_map(|local| &local.thresholds);
+        let kinds: Vec<(String, _)> =
+            found.map(|found| (kind_in_words(study, found.kind, &found.contacts), found)).collect();
+        let width = kinds.iter().map(|(kind, _)| kind.chars().count() + 2).fold(16, usize::max);
+        for (kind, found) in kinds {
+            let value = figure(found.value) + &unit;
+            let sides = format!("{} below, {} above", side(found.was), side(found.becomes));
+            let _ = writeln!(text, "  {value:<values$}{kind:<width$}{sides}");
+        }
+        let changes: Vec<_> = self.local.iter().flat_map(|local| &local.changes).collect();
+        if !changes.is_empty() {
+            text.push_str("events in a period:\n");
+        }
+        for change in changes {
+            let value = figure(change.value) + &unit;
+            let [below, above] =
+                [&change.below, &change.above].map(|side| events_in_words(study, side.as_ref()));
+            let _ = writeln!(text, "  {value:<values$}{below} below, {above} above");
+        }
+        for (protocol, switches) in &self.runs {
+            let _ = writeln!(
+                text,
+                "run {} (at {} values; a pair of changes between two of them is missed):",
+                protocol.words(study),
+                TRIED + 1
+            );
+            let first = figure(self.request.window.0) + &unit;
+            let _ = writeln!(text, "  {first:<values$}{}", self.words(&switches.first));
+            for change in &switches.changes {
+                let value = figure(change.value) + &unit;
+                let kind = change.kind.map_or_else(
+                    || format!("± {}", figure(change.error)),
+                    |kind| kind.name().to_owned(),
+                );
+                let _ = writeln!(
+                    text,
+                    "  {value:<values$}{kind:<16}{} above",
+                    self.words(&change.becomes)
+                );
+            }
+        }
+        text
     }
 
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        self.dataset(study).map(|dataset| ("branch", dataset)).into_iter().collect()
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::thresholds(study, self)))
     }
 }
 
-impl Presented<BeltSetup> for Curves {
-    fn json(&self, study: &BeltStudy) -> Json {
+impl Presented<SystemSetup> for Curves {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }
 
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
         Some(self.sentence(study))
     }
 
-    fn table(&self, study: &BeltStudy) -> String {
-        table_of_curves(study, self)
+    fn table(&self, study: &SystemStudy) -> String {
+        let curves = self.found.curves.iter().map(|curve| (self.kind(study, curve), curve));
+        let names = [&self.request.along, &self.request.parameter].map(|path| {
+            let unit = study.unit_of(path).filter(|unit| *unit != "1");
+            unit.map_or_else(|| path.clone(), |unit| format!("{path} ({unit})"))
+        });
+        rows_of_curves(curves, &names, [&figure, &figure])
     }
 
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
         vec![("curves", self.dataset(study))]
     }
 
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::curves(study, self)))
     }
 }
 
-fn table_of_curves(study: &BeltStudy, done: &Curves) -> String {
-    let [parameter, across] = &done.asked;
-    let names = [across, parameter].map(|named| named.key().to_owned());
-    let figures: [&dyn Fn(f64) -> String; 2] =
-        [&|along| figure_at(study, across, along), &|value| figure_at(study, parameter, value)];
-    let curves = done.curves.iter().map(|curve| (curve.kind.name().to_owned(), curve));
-    rows_of_curves(curves, &names, figures)
-}
-
 /// Curves with their kinds in words, some points of each, in the columns of the second and of the first parameter.
-pub(super) fn rows_of_curves<'a, S: 'a>(
-    curves: impl Iterator<Item = (String, &'a ThresholdCurve<S>)>,
+fn rows_of_curves<'a>(
+    curves: impl Iterator<Item = (String, &'a ThresholdCurve)>,
     [x, y]: &[String; 2],
     [along, value]: [&dyn Fn(f64) -> String; 2],
 ) -> String {
@@ -81,75 +144,6 @@ pub(super) fn rows_of_curves<'a, S: 'a>(
             if number % every == 0 || number == last {
                 let _ = writeln!(text, "  {:<14}  {:<14}", along(point.along), value(point.value));
             }
-        }
-    }
-    text
-}
-
-/// A value of a number of the equations as its key gives it, with its unit in a study with units.
-fn figure_at(study: &BeltStudy, named: &Named, value: f64) -> String {
-    match named.value(value) {
-        (unit, value) if study.scales().is_some() && unit != "1" => {
-            format!("{} {unit}", figure(value))
-        }
-        (_, value) => figure(value),
-    }
-}
-
-fn table(study: &BeltStudy, done: &Thresholds) -> String {
-    let question = &done.question;
-    let path = done.asked.key();
-    let figure = |value: f64| figure_at(study, &done.asked, value);
-    let whole = |value: f64| done.asked.words(study, value);
-    let response =
-        if study.belt().dithers().is_empty() { "steady sliding" } else { "the base response" };
-    let mut text =
-        format!("\n{path} from {} to {}, {response}:\n", whole(question.from), whole(question.to));
-    for threshold in &done.local.thresholds {
-        let _ = writeln!(
-            text,
-            "  {:<14}  {:<15}  {} below, {} above",
-            figure(threshold.value),
-            threshold.kind.name(),
-            side(threshold.was),
-            side(threshold.becomes)
-        );
-    }
-    if done.local.thresholds.is_empty() {
-        text.push_str("  no local threshold\n");
-    }
-    for change in &done.local.changes {
-        let words = |signature: &Option<_>| {
-            signature.as_ref().map_or_else(|| "none".to_owned(), Signature::words)
-        };
-        let (below, above) = (words(&change.below), words(&change.above));
-        let _ = writeln!(text, "  {:<14}  {below} below, {above} above", figure(change.value));
-    }
-    for (protocol, switches) in &done.protocols {
-        let _ = writeln!(
-            text,
-            "runs {} (at {} values; a pair of changes between two of them is missed):",
-            protocol.name().replace('_', " "),
-            TRIED + 1
-        );
-        let first = becomes(switches.first, done.in_band);
-        if switches.changes.is_empty() {
-            let _ = writeln!(text, "  {first} at every value of the range");
-        } else {
-            let _ = writeln!(text, "  {:<14}  {first}", figure(question.from));
-        }
-        for switch in &switches.changes {
-            let value = figure(switch.value);
-            let error = if switch.is_close() {
-                String::new()
-            } else {
-                format!(" (± {})", figure(switch.error))
-            };
-            let _ = writeln!(
-                text,
-                "  {value:<14}  {} above{error}",
-                becomes(switch.becomes, done.in_band)
-            );
         }
     }
     text

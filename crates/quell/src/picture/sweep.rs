@@ -16,8 +16,9 @@ use crate::plot::{
     Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotRole, Points,
     Polyline, Size, Spread,
 };
-use crate::run::curves::{self, CurvesRequest};
+use crate::run::belt_system;
 use crate::run::map::{FinishedMap, amplitude_and_other, boundaries_at};
+use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::study::{DiscStudy, Study};
 use crate::sweep::{Grid, GridAxis, Status, VariableArrays, VariableKind};
 
@@ -206,18 +207,12 @@ fn exact_curves(done: &FinishedMap) -> Vec<Layer> {
 /// Curves of thresholds in the plane of a map, in the units of its axes; none where the study has none.
 fn threshold_curves(grid: &Grid, request: &CurvesRequest) -> Vec<Vec<(f64, f64)>> {
     let Ok(study) = grid.study().belt() else { return Vec::new() };
-    let Ok(found) = curves::run(&study, request) else { return Vec::new() };
-    // The request has the ends of the axes in their units, the answer those of the equations.
-    let unit = |shown: (f64, f64), own: (f64, f64)| {
-        if own.1 == own.0 { 1.0 } else { (shown.1 - shown.0) / (own.1 - own.0) }
-    };
-    let across = unit(request.between, found.question.between);
-    let up = unit(request.window, found.question.window);
-    let curve = |curve: &curves::ThresholdCurve| -> Vec<(f64, f64)> {
-        let points = curve.points.iter();
-        points.map(|point| (across * point.along, up * point.value)).collect()
-    };
-    found.curves.iter().map(curve).collect()
+    let Ok(system) = belt_system::of(&study, "thresholds") else { return Vec::new() };
+    let Ok(found) = curves::run(&system, request) else { return Vec::new() };
+    let curves = found.found.curves.iter();
+    curves
+        .map(|curve| curve.points.iter().map(|point| (point.along, point.value)).collect())
+        .collect()
 }
 
 /// The stability boundaries by averaging as lines, in the plane as it is drawn: the first axis to the right.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use quell_numerics::order::ascending_by;
 
+use super::frame::filled;
 use super::ruler::Ruler;
-use super::thresholds::filled;
 use crate::plot::{
     Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };

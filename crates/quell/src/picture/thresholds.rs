@@ -1,119 +1,108 @@
-//! The modulus of the larger multiplier over a parameter, with its thresholds; and threshold curves in two parameters compared
-//! with the stability boundaries by averaging.
+//! The modulus of the deciding multiplier of a periodic motion over a parameter, with its thresholds; and threshold curves in two
+//! parameters compared with the stability boundaries by averaging.
 
-use std::borrow::Cow;
-
-use quell_dynamics::orbit::threshold::ThresholdKind;
-use quell_model::units::Quantity;
-
-use super::caption::{caption, with_varied};
-use super::ruler::Ruler;
-use super::sweep::short_name;
+use super::caption::caption_of_varied;
+use super::frame::filled;
+use super::system::axis_of;
 use crate::plot::{
-    AxisRange, Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotRole, Points,
+    AxisRange, Figure, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotRole, Points,
     Polyline, ReferenceLine, Region, Size,
 };
-use crate::run::curves::{AveragedBoundary, Curves, ThresholdCurve};
-use crate::run::thresholds::{Thresholds, becomes};
-use crate::run::varied::{key_of, name_of};
-use crate::study::BeltStudy;
+use crate::run::thresholds::Thresholds;
+use crate::run::thresholds::curves::{AveragedBoundary, Curves};
+use crate::study::SystemStudy;
+use quell_dynamics::motion::orbit::ThresholdCurve;
+use quell_dynamics::orbit::threshold::ThresholdKind;
 
-/// Minimum jump of the multiplier between neighbouring points that counts as grazing.
+/// Minimum jump of the multiplier between neighbouring points with different events that counts as grazing.
 const JUMP: f64 = 0.05;
 
-/// The axis of a parameter, and its ruler.
-fn axis_of(study: &BeltStudy, path: &str, range: (f64, f64)) -> (PlotAxis, Ruler) {
-    let largest = range.0.abs().max(range.1.abs());
-    let address = study.address(path).ok();
-    let Some((quantity, symbol)) = address.and_then(|found| found.quantity.zip(found.symbol))
-    else {
-        return (PlotAxis::new(path), Ruler::new(study, Quantity::Ratio, largest));
-    };
-    let ruler = Ruler::new(study, quantity, largest);
-    let (about, symbol) = name_of(study, path).unwrap_or((path, symbol));
-    let axis = ruler
-        .axis(short_name(about), &symbol.replace('₀', "_0"))
-        .between(ruler.place(range.0.min(range.1)), ruler.place(range.0.max(range.1)));
-    (axis, ruler)
-}
-
 /// The picture of the thresholds of one parameter.
-pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
-    let question = &done.question;
-    let (axis, ruler) = axis_of(study, &question.parameter, (question.from, question.to));
+pub fn thresholds(study: &SystemStudy, done: &Thresholds) -> Figure {
+    let (from, to) = done.request.window;
+    let (across, ruler) = axis_of(study, &done.request.parameter, (from, to));
+    let branch = done.local.as_ref().map_or(&[][..], |local| &local.branch);
     // The multipliers jump at grazing, and the curve has a gap there.
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
-    for pair in done.local.branch.windows(2) {
-        let (a, b) = (&pair[0], &pair[1]);
-        if let Some(piece) = pieces.last_mut() {
-            piece.push((ruler.place(a.value), a.radius));
-        }
-        if a.signature != b.signature && (a.radius - b.radius).abs() > JUMP {
+    for (place, point) in branch.iter().enumerate() {
+        let jumps =
+            place.checked_sub(1).and_then(|before| branch.get(before)).is_some_and(|before| {
+                before.signature != point.signature && (before.radius - point.radius).abs() > JUMP
+            });
+        if jumps {
             pieces.push(Vec::new());
         }
-    }
-    if let (Some(piece), Some(last)) = (pieces.last_mut(), done.local.branch.last()) {
-        piece.push((ruler.place(last.value), last.radius));
+        if let Some(piece) = pieces.last_mut() {
+            piece.push((ruler.place(point.value), point.radius));
+        }
     }
     let radii = || pieces.iter().flatten().map(|point| point.1);
     let (low, high) = (radii().fold(1.0, f64::min), radii().fold(1.0, f64::max));
     let room = 0.15 * (high - low).max(1e-3);
     let modulus =
         PlotAxis::new("modulus of the multiplier").symbol("|λ|").between(low - room, high + room);
-    let mut panel = Panel::new(axis, modulus)
+    let mut panel = Panel::new(across, modulus)
         .with(Region::across_y(PlotRole::Unstable, 1.0, f64::INFINITY).label("unstable"))
         .with(ReferenceLine::horizontal(1.0))
         .with(Polyline::pieces(PlotRole::Exact, pieces));
     for kind in ThresholdKind::ALL {
-        let places: Vec<(f64, f64)> = done
-            .local
-            .thresholds
-            .iter()
+        let found = done.local.iter().flat_map(|local| &local.thresholds);
+        let places: Vec<(f64, f64)> = found
             .filter(|threshold| threshold.kind == kind)
             .map(|threshold| (ruler.place(threshold.value), 1.0))
             .collect();
         if !places.is_empty() {
             let marker = if kind == ThresholdKind::Grazing { Marker::Circle } else { Marker::Disc };
-            panel = panel.with(
-                Points::new(PlotRole::Exact, places).marker(marker).size(7.0).label(words(kind)),
-            );
+            let points = Points::new(PlotRole::Exact, places).marker(marker).size(7.0);
+            panel = panel.with(points.label(words(kind)));
         }
     }
-    for (protocol, switches) in &done.protocols {
-        for switch in &switches.changes {
+    for (protocol, switches) in &done.runs {
+        for change in &switches.changes {
             let label = format!(
-                "{}: {} above {}",
-                protocol.name().replace('_', " "),
-                becomes(switch.becomes, done.in_band),
-                ruler.words(switch.value)
+                "run {}: {} above {}",
+                protocol.words(study),
+                done.words(&change.becomes),
+                ruler.words(change.value)
             );
-            let rule = ReferenceLine::vertical(ruler.place(switch.value)).style(LineStyle::Dashed);
+            let rule = ReferenceLine::vertical(ruler.place(change.value)).style(LineStyle::Dashed);
             panel = panel.with(rule.label(label));
         }
     }
     Figure::single(panel.legend(Legend::Above)).title(study.title().unwrap_or_default()).caption(
         format!(
-            "{} {}.",
+            "{} {}",
             done.sentence(study),
-            with_varied(
-                study,
-                caption,
-                &[range(study, &question.parameter, (question.from, question.to))]
-            )
+            caption_of_varied(study, &[(done.request.parameter.as_str().into(), from, to)])
         ),
     )
 }
 
-/// The range of a number of the equations, by the key and in the unit of the study.
-fn range<'a>(study: &BeltStudy, path: &'a str, (from, to): (f64, f64)) -> (Cow<'a, str>, f64, f64) {
-    let quantity = study.address(path).ok().and_then(|address| address.quantity);
-    let unit =
-        study.scales().zip(quantity).map_or(1.0, |(scales, quantity)| scales.per_unit(quantity));
-    (Cow::Owned(key_of(study, path)), unit * from, unit * to)
+/// The picture of threshold curves.
+pub fn curves(study: &SystemStudy, done: &Curves) -> Figure {
+    let request = &done.request;
+    let (x, across) = axis_of(study, &request.along, request.between);
+    let (y, up) = axis_of(study, &request.parameter, request.window);
+    let place = |(along, value): (f64, f64)| (across.place(along), up.place(value));
+    let panel = with_curves(Panel::new(x, y), &done.averaged, &done.found.curves, place);
+    Figure::single(panel.legend(Legend::Above))
+        .size(Size::Frame(380.0, 300.0))
+        .title(study.title().unwrap_or_default())
+        .caption(format!(
+            "{} {}",
+            done.sentence(study),
+            caption_of_varied(
+                study,
+                &[
+                    (request.along.as_str().into(), request.between.0, request.between.1),
+                    (request.parameter.as_str().into(), request.window.0, request.window.1),
+                ]
+            )
+        ))
 }
 
 /// Name of a kind in the legend.
-pub(super) fn words(kind: ThresholdKind) -> &'static str {
+fn words(kind: ThresholdKind) -> &'static str {
     match kind {
         ThresholdKind::NeimarkSacker => "Neimark–Sacker",
         ThresholdKind::Hopf => "Hopf",
@@ -126,35 +115,11 @@ pub(super) fn words(kind: ThresholdKind) -> &'static str {
     }
 }
 
-/// The picture of threshold curves.
-pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
-    let question = &done.question;
-    let (x, across) = axis_of(study, &question.along, question.between);
-    let (y, up) = axis_of(study, &question.parameter, question.window);
-    let place = |(along, value): (f64, f64)| (across.place(along), up.place(value));
-    let panel = with_curves(Panel::new(x, y), &done.averaged, &done.curves, place);
-    Figure::single(panel.legend(Legend::Above))
-        .size(Size::Frame(380.0, 300.0))
-        .title(study.title().unwrap_or_default())
-        .caption(format!(
-            "{} {}.",
-            done.sentence(study),
-            with_varied(
-                study,
-                caption,
-                &[
-                    range(study, &question.along, question.between),
-                    range(study, &question.parameter, question.window),
-                ]
-            )
-        ))
-}
-
 /// A panel with the boundaries of averaging and the curves of each kind.
-pub(super) fn with_curves<S>(
+fn with_curves(
     mut panel: Panel,
     averaged: &[AveragedBoundary],
-    curves: &[ThresholdCurve<S>],
+    curves: &[ThresholdCurve],
     place: impl Fn((f64, f64)) -> (f64, f64),
 ) -> Panel {
     for boundary in averaged {
@@ -202,38 +167,4 @@ pub(super) fn with_curves<S>(
         return panel;
     }
     filled(panel)
-}
-
-/// Space around the curves, as a share of their extent.
-const SPACE: f64 = 0.06;
-
-/// The panel with axes that its curves fill: the window that was searched may be much larger.
-pub(super) fn filled(mut panel: Panel) -> Panel {
-    let window = |axis: &PlotAxis| match axis.range {
-        AxisRange::Between(from, to) => Some((from.min(to), from.max(to))),
-        _ => None,
-    };
-    let (Some(x), Some(y)) = (window(&panel.x), window(&panel.y)) else { return panel };
-    let inside = |range: (f64, f64), value: f64| (range.0..=range.1).contains(&value);
-    let points: Vec<(f64, f64)> = panel
-        .layers
-        .iter()
-        .filter_map(|layer| if let Layer::Polyline(line) = layer { Some(line) } else { None })
-        .flat_map(|line| line.pieces.iter().flatten().copied())
-        .filter(|point| inside(x, point.0) && inside(y, point.1))
-        .collect();
-    let fit = |window: (f64, f64), of: fn(&(f64, f64)) -> f64| {
-        let low = points.iter().map(of).fold(f64::INFINITY, f64::min);
-        let high = points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-        // A level line keeps a tenth of the window around it.
-        let space = if high > low { SPACE * (high - low) } else { 0.1 * (window.1 - window.0) };
-        ((low - space).max(window.0), (high + space).min(window.1))
-    };
-    if points.is_empty() {
-        return panel;
-    }
-    let ((left, right), (bottom, top)) = (fit(x, |point| point.0), fit(y, |point| point.1));
-    panel.x = panel.x.between(left, right);
-    panel.y = panel.y.between(bottom, top);
-    panel
 }

@@ -10,7 +10,8 @@ use crate::kind::{Reply, Verbs};
 use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
-use crate::run::thresholds::{ThresholdsRequest, path_in_words};
+use crate::run::thresholds::ThresholdsRequest;
+use crate::run::varied::key_of;
 use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStart, SystemStudy};
 use crate::sweep::Running;
 use crate::words::{digits, start_in_words};
@@ -86,7 +87,7 @@ fn of_belt(study: &BeltStudy) -> Vec<ReportStep> {
                 belt.normal_load() - belt.total_amplitude(Direction::Normal) + dither.amplitude
             }
         };
-        let path = path_in_words(study, &belt.dither_path(place, "amplitude"));
+        let path = key_of(study, &belt.dither_path(place, "amplitude"));
         let unit = study.scales().map_or(1.0, |scales| scales.per_unit(Quantity::Force));
         steps.extend(thresholds(&path, unit * dither.amplitude, unit * room));
     }
@@ -196,7 +197,8 @@ fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<ReportStep> {
         return None;
     }
     let parameter = path.to_owned();
-    let request = ThresholdsRequest { parameter, from, to, ..ThresholdsRequest::default() };
+    let request =
+        ThresholdsRequest { parameter, window: (from, to), ..ThresholdsRequest::default() };
     let heading = "Amplitudes that change the outcome";
     let mut step =
         ReportStep::new("thresholds", heading, BRANCH, ReportedVerb::Thresholds(request));
@@ -213,7 +215,7 @@ pub(super) fn ask(verbs: &dyn Verbs, asked: ReportedVerb) -> Reply {
         ReportedVerb::Orbit => verbs.orbit(&Wanted::default()),
         ReportedVerb::Friction => verbs.friction(None, false),
         ReportedVerb::Resonances => verbs.resonances(ResonancesRequest::default()),
-        ReportedVerb::Thresholds(request) => verbs.thresholds(request),
+        ReportedVerb::Thresholds(request) => verbs.thresholds(&request),
         ReportedVerb::Atlas => verbs.atlas(false),
         ReportedVerb::Design => verbs.design(),
         ReportedVerb::Actuator => verbs.actuator(None),

@@ -1,15 +1,10 @@
-//! A belt as its system: `orbit`, `attractor` and `bifurcation` of every belt, and the other verbs about motions that repeat of a belt
+//! A belt as its system: `orbit`, `attractor`, `thresholds` and `bifurcation` of every belt, and the other verbs about motions that repeat of a belt
 //! whose contact has a state of its own. Its numbers keep their paths.
 
 use quell_dynamics::start::InitialState;
 use quell_model::units::Quantity;
 
 use super::basins::BasinsRequest;
-use super::protocol::Protocol;
-use super::system::protocol::SystemProtocol;
-use super::system::start::StateNumbers;
-use super::system::thresholds::MotionThresholdsRequest;
-use super::thresholds::ThresholdsRequest;
 use crate::complaint::Failure;
 use crate::contact_state::passivity;
 use crate::study::{BeltStudy, DescribedSystem, Study, SystemStart, SystemStudy, not_periodic};
@@ -61,29 +56,6 @@ pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
 /// A velocity of the equations in the units of the system; displacements are lengths in both.
 fn in_units(study: &BeltStudy, velocity: f64) -> f64 {
     study.scales().map_or(velocity, |scales| scales.to_units(Quantity::Velocity, velocity))
-}
-
-/// Displacement and velocity as numbers of a state.
-fn numbers(study: &BeltStudy, (displacement, velocity): (f64, f64)) -> StateNumbers {
-    vec![(0, displacement), (1, in_units(study, velocity))]
-}
-
-/// The request about a belt for its system.
-pub(crate) fn thresholds(study: &BeltStudy, request: ThresholdsRequest) -> MotionThresholdsRequest {
-    let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
-    let protocols = protocols.into_iter().map(|start| protocol(study, start)).collect();
-    MotionThresholdsRequest { parameter, window: (from, to), near: None, protocols, ramp }
-}
-
-fn protocol(study: &BeltStudy, protocol: Protocol) -> SystemProtocol {
-    match protocol {
-        Protocol::Rest => SystemProtocol::Rest,
-        Protocol::Sliding => SystemProtocol::Sliding,
-        Protocol::Squeal => SystemProtocol::Squeal,
-        Protocol::From(displacement, velocity) => {
-            SystemProtocol::From(numbers(study, (displacement, velocity)))
-        }
-    }
 }
 
 /// The request about a belt for its system.

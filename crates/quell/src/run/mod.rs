@@ -13,7 +13,6 @@ pub mod bifurcation;
 pub mod check;
 pub mod compare;
 pub mod criticality;
-pub mod curves;
 pub mod decay;
 pub mod describing;
 pub mod design;

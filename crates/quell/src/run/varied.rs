@@ -2,15 +2,15 @@
 
 use quell_model::Belt;
 use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE, Parameter, SCALES};
+use quell_model::units::Quantity;
 
 use super::evenly;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 use crate::document::given_number;
-use crate::fields::Fields;
 use crate::nearest;
 use crate::study::vocabulary::size::SignalMeasure;
 use crate::study::vocabulary::{DocumentKind, Role, join};
-use crate::study::{Address, BeltStudy, ParameterId, key_at, with_unit};
+use crate::study::{Address, BeltStudy, Kind, ParameterId, SystemStudy, key_at, with_unit};
 use crate::words::digits;
 
 /// What a varied number must be.
@@ -169,7 +169,8 @@ impl Named {
         let meant =
             meant.or_else(|| Some(path.to_owned())).filter(|path| study.number(path).is_some());
         // A root mean square depends on the waveform, and the result is a peak value.
-        let per_unit = study.per_one(path).filter(|_| not_a_peak(path).is_none());
+        let per_unit =
+            study.per_one(path).filter(|_| not_a_peak(path, DocumentKind::Belt).is_none());
         let per_unit = per_unit.map(|(_, per_unit)| per_unit);
         match (meant, per_unit) {
             (Some(number), Some(per_unit)) => {
@@ -183,8 +184,8 @@ impl Named {
                 );
                 Err(Box::new(Complaint::option(option, path, allowed)))
             }
-            (Some(number), _) if not_a_peak(path).is_some() => {
-                let why = not_a_peak(path).unwrap_or_default();
+            (Some(number), _) if not_a_peak(path, DocumentKind::Belt).is_some() => {
+                let why = not_a_peak(path, DocumentKind::Belt).unwrap_or_default();
                 let peak = key_of(study, &number);
                 let allowed = format!("{peak}, a peak value: {why}");
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(Some(peak))))
@@ -197,12 +198,6 @@ impl Named {
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(near)))
             }
         }
-    }
-
-    /// Whether both name the same number; an omitted index is 0.
-    pub(super) fn is(&self, other: &Self) -> bool {
-        let whole = |path: &str| path.replacen("dither.", "dither[0].", 1);
-        whole(&self.path) == whole(&other.path)
     }
 
     /// The key that names it.
@@ -223,11 +218,6 @@ impl Named {
             Some(_) if self.unit == "1" => digits(value),
             Some(_) => format!("{} {}", digits(value), self.unit),
         }
-    }
-
-    /// Adds a number of the equations to an answer, as the key gives it.
-    pub(super) fn put(&self, fields: &mut Fields, name: &str, number: f64) {
-        fields.measured(name, self.unit, number * self.per_unit);
     }
 
     /// The study with another number of the equations, which the key gives.
@@ -256,23 +246,30 @@ impl Named {
     pub(super) fn of(&self, given: f64) -> f64 {
         given / self.per_unit
     }
+}
 
-    /// Complaints about a value that the study does not accept: the same as for `--set`.
-    pub(super) fn unable(
-        &self,
-        study: &BeltStudy,
-        (option, given): (&'static str, f64),
-    ) -> impl Iterator<Item = Complaint> {
-        let refused = study.with(&self.key, given).err();
-        refused.into_iter().flatten().map(move |complaint| {
-            for_option(Complaint { value: given_number(given), ..complaint }, option)
-        })
+/// The kind of the document in which the numbers of a system are declared.
+pub(super) fn kind_of_document(study: &SystemStudy) -> DocumentKind {
+    match study.declared().kind() {
+        Kind::Belt(_) => DocumentKind::Belt,
+        Kind::Disc(_) => DocumentKind::Disc,
+        Kind::System(_) => DocumentKind::System,
     }
 }
 
+/// The number of the equations that a path means which names none itself, such as the peak amplitude for a root mean square.
+pub(super) fn number_meant(study: &SystemStudy, path: &str) -> Option<String> {
+    let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
+    let meant = match key_at(path, kind_of_document(study)) {
+        Ok(address) => address.key.parameter().map(|parameter| join(table, parameter.key())),
+        Err(nearest) => nearest,
+    };
+    meant.filter(|path| study.number(path).is_some())
+}
+
 /// Why a key that gives an amplitude by another size than its peak cannot be varied here.
-fn not_a_peak(path: &str) -> Option<&'static str> {
-    let role = key_at(path, DocumentKind::Belt).ok()?.key.role;
+pub(super) fn not_a_peak(path: &str, kind: DocumentKind) -> Option<&'static str> {
+    let role = key_at(path, kind).ok()?.key.role;
     let measure = match role {
         Role::Size(_, size) if size.needs_actuator() => {
             return Some(
@@ -302,6 +299,11 @@ fn is_of_several(path: &str) -> bool {
 /// The key by which a study gives a number of the equations: a frequency in hertz in a study with units.
 pub fn key_of(study: &BeltStudy, path: &str) -> String {
     if study.scales().is_some() { with_unit(path) } else { path.to_owned() }
+}
+
+/// The quantity of a number of the equations.
+pub(crate) fn quantity_of(study: &BeltStudy, path: &str) -> Quantity {
+    study.address(path).ok().and_then(|address| address.quantity).unwrap_or(Quantity::Ratio)
 }
 
 /// Description and symbol of a number of the equations as the study gives it: those of the number with a unit in a study with units.

@@ -23,8 +23,8 @@ use super::status::Status;
 use crate::complaint::Failure;
 use crate::contact_state::averaged_without_states;
 use crate::range::outside_of_laws;
+use crate::run::protocol::Protocol;
 use crate::run::system::attractor::end_of_run;
-use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::response::{self, ResponseRequest};
 use crate::run::system::simulate::beyond_laws;
 use crate::study::{SystemSetup, SystemStudy};
@@ -186,7 +186,7 @@ fn base_response(system: &System) -> Result<SystemOrbitPoint, Status> {
 
 /// The motion on which the run from the start of a study ends.
 fn end(study: &SystemStudy, system: &System) -> Result<SystemEndPoint, Status> {
-    let start = SystemProtocol::Study.state(study, system).map_err(|_| Status::NoSquealingStart)?;
+    let start = Protocol::Study.state(study, system).map_err(|_| Status::NoSquealingStart)?;
     let end = end_of_run(system, &study.observe(), &start);
     let attractor = end.map_err(|_| Status::Stalled)?.attractor;
     let sticks = |contact: &Contact| contact.friction.bristles().is_none();

@@ -1,4 +1,7 @@
-//! Curves of the thresholds of a system in two parameters: the scheme of [`crate::orbit::curve`] for belts.
+//! Curves of the thresholds of a system in two parameters.
+//!
+//! Thresholds are found on a few lines across the second parameter and each is followed to the borders of the window. A threshold on a
+//! known curve is not followed again. A curve that crosses none of the lines is missed.
 //!
 //! The curve of a grazing or a separation is that of one contact, whose least slip velocity or load is zero along it, regardless of the
 //! events of the others; contacts that graze together have one curve. It ends where another contact grazes or opens first. A curve of
@@ -12,14 +15,14 @@ use quell_numerics::continuation::{Image, PeriodMap, modulus};
 
 use super::super::Motion;
 use super::family::{BorderGuard, MotionFamily, MotionSignature, NoImage, Shot, SystemAt, shot_of};
-use super::periodic::{NoMotionOrbit, motion_near, scale_of};
+use super::periodic::{motion_near, scale_of};
+use super::threshold_curve::{
+    CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
+    part, passes, threshold_curve,
+};
 use super::thresholds::{MotionThreshold, criticality, fold_of, motion_thresholds};
 use crate::orbit::OrbitVerdict;
-use crate::orbit::threshold::ThresholdKind;
-use crate::orbit::threshold_curve::{
-    CurvesFound, LineSearched, Open, OpenLine, PointForm, ResponsePlane, ThresholdCurve,
-    ThresholdCurveEnd, ThresholdCurvePoint, curves_of, part, threshold_curve,
-};
+use crate::orbit::threshold::{BranchEnding, ThresholdKind};
 
 /// Steps of the continuation runs that find the first points, at least. More find pairs of thresholds that lie closer together.
 const STEPS: u32 = 40;
@@ -36,11 +39,8 @@ const ABOUT_TO_LEAVE: f64 = 0.99;
 /// a distance. With a value nearer to 0 rounding would end curves; a lower one follows them slightly too far.
 const FIRST: f64 = -1e-9;
 
-/// A curve of thresholds of a system.
-pub type MotionCurve = ThresholdCurve<Vec<f64>>;
-
-/// The curves of a system, and where curves may be missing.
-pub type MotionCurves = CurvesFound<Vec<f64>, NoMotionOrbit>;
+/// Distance beyond a grazing, relative to the parameter, at which the response with contact events is evaluated.
+const BEYOND: f64 = 1e-5;
 
 /// A system over a plane of two parameters, the first of which has thresholds.
 pub struct MotionPlane<'a> {
@@ -58,11 +58,54 @@ pub struct MotionPlane<'a> {
 ///
 /// # Errors
 /// The last line, if no line has a base response to start from.
-pub fn motion_curves(
-    plane: &MotionPlane<'_>,
-    lines: u32,
-) -> Result<MotionCurves, OpenLine<NoMotionOrbit>> {
-    curves_of(plane, lines)
+pub fn motion_curves(plane: &MotionPlane<'_>, lines: u32) -> Result<CurvesFound, OpenLine> {
+    let (window, (first, last)) = (plane.window, plane.between);
+    let lines = lines.max(1);
+    let mut found: Vec<ThresholdCurve> = Vec::new();
+    let mut open: Vec<OpenLine> = Vec::new();
+    let mut has_started = false;
+    // Lines are inside the window, so that no curve starts on its border.
+    for line in 0..lines {
+        let along = first + (last - first) * (f64::from(line) + 0.5) / f64::from(lines);
+        let mut leave_open = |why| open.push(OpenLine { along, why });
+        let on_line = |values: &[f64]| (plane.at)(&[values[0], along]);
+        let searched = match motion_thresholds(&on_line, window, STEPS, None) {
+            Ok(searched) => searched,
+            Err(why) => {
+                leave_open(Open::Begin(why));
+                continue;
+            }
+        };
+        has_started = true;
+        if let BranchEnding::Lost { at } | BranchEnding::LostTurning { at, .. } = searched.ending {
+            leave_open(Open::Lost { at });
+        }
+        for threshold in searched.thresholds {
+            let (value, kind, contacts) = (threshold.value, threshold.kind, &threshold.contacts);
+            let same = |curve: &&ThresholdCurve| curve.kind == kind && curve.contacts == *contacts;
+            if found.iter().filter(same).any(|curve| passes(curve, value, along, window)) {
+                continue;
+            }
+            let Some(mut curve) = plane.through(&threshold, along) else {
+                leave_open(Open::NotFollowed { value });
+                continue;
+            };
+            if matches!(kind, ThresholdKind::Grazing | ThresholdKind::Separation) {
+                curve = plane.deciding_part(&threshold, curve, along);
+            }
+            for point in &mut curve.points {
+                point.form = plane.form(kind, point);
+            }
+            found.push(curve);
+        }
+    }
+    match open.pop() {
+        Some(line) if !has_started => Err(line),
+        last => {
+            open.extend(last);
+            Ok(CurvesFound { curves: found, open })
+        }
+    }
 }
 
 impl MotionPlane<'_> {
@@ -85,13 +128,13 @@ impl MotionPlane<'_> {
         found: &MotionThreshold,
         kind: BifurcationKind,
         along: f64,
-    ) -> Option<MotionCurve> {
+    ) -> Option<ThresholdCurve> {
         let MotionThreshold { value, state, kind: name, signature, .. } = found;
         let system = self.system(*value, along)?;
         let family = self.family(&system, state)?;
         let at = [*value, along];
         let traced = trace(&family, kind, signature, state, at, self.trace_options())?;
-        let mut curve = threshold_curve(*name, &traced, <[f64]>::to_vec);
+        let mut curve = threshold_curve(*name, &traced);
         // Where two thresholds cross, the test function has a double root, at which the trace may end.
         let critical = if kind == BifurcationKind::NeimarkSacker { 2 } else { 1 };
         for (end, point) in curve.ends.iter_mut().zip([traced.points.first(), traced.points.last()])
@@ -109,7 +152,7 @@ impl MotionPlane<'_> {
     }
 
     /// The curve on which one contact grazes or opens.
-    fn of_contact(&self, found: &MotionThreshold, along: f64) -> Option<MotionCurve> {
+    fn of_contact(&self, found: &MotionThreshold, along: f64) -> Option<ThresholdCurve> {
         let MotionThreshold { value, state, kind, signature, contacts, .. } = found;
         let system = self.system(*value, along)?;
         let family = self.family(&system, state)?;
@@ -119,7 +162,7 @@ impl MotionPlane<'_> {
         let options = self.trace_options();
         let grazing = BifurcationKind::Grazing;
         let traced = trace(&guarded, grazing, signature, state, [*value, along], options)?;
-        let mut curve = threshold_curve(*kind, &traced, <[f64]>::to_vec);
+        let mut curve = threshold_curve(*kind, &traced);
         curve.contacts.clone_from(contacts);
         let kept = curve.points.iter().map(|point| {
             let at = [point.value, point.along];
@@ -131,26 +174,9 @@ impl MotionPlane<'_> {
     }
 }
 
-impl ResponsePlane for MotionPlane<'_> {
-    type State = Vec<f64>;
-    type Found = MotionThreshold;
-    type Why = NoMotionOrbit;
-
-    fn windows(&self) -> [(f64, f64); 2] {
-        [self.window, self.between]
-    }
-
-    fn on_line(&self, along: f64) -> Result<LineSearched<MotionThreshold>, Open<NoMotionOrbit>> {
-        let at = |values: &[f64]| (self.at)(&[values[0], along]);
-        let found = motion_thresholds(&at, self.window, STEPS, None).map_err(Open::Begin)?;
-        Ok(LineSearched::new(found.thresholds, found.ending))
-    }
-
-    fn place(found: &MotionThreshold) -> (f64, ThresholdKind, &[usize]) {
-        (found.value, found.kind, &found.contacts)
-    }
-
-    fn form(&self, kind: ThresholdKind, point: &ThresholdCurvePoint<Vec<f64>>) -> PointForm {
+impl MotionPlane<'_> {
+    /// What the normal form at a point of a curve of this kind says.
+    fn form(&self, kind: ThresholdKind, point: &ThresholdCurvePoint) -> PointForm {
         let at = [point.value, point.along];
         let family =
             self.system(at[0], at[1]).and_then(|system| self.family(&system, &point.state));
@@ -165,7 +191,26 @@ impl ResponsePlane for MotionPlane<'_> {
         }
     }
 
-    fn through(&self, found: &MotionThreshold, along: f64) -> Option<MotionCurve> {
+    /// The part of a grazing curve, around the line on which it was found, where the grazing changes the verdict.
+    fn deciding_part(
+        &self,
+        found: &MotionThreshold,
+        curve: ThresholdCurve,
+        along: f64,
+    ) -> ThresholdCurve {
+        let decides = |point: &ThresholdCurvePoint| {
+            let beyond = |side: f64| {
+                let value = point.value * (1.0 + side * BEYOND);
+                self.with_events(found, (value, point.along), &point.state)
+            };
+            beyond(1.0).or_else(|| beyond(-1.0)) != Some(OrbitVerdict::of(point.radius, 0.0))
+        };
+        let kept: Vec<bool> = curve.points.iter().map(decides).collect();
+        part(curve, &kept, along, ThresholdCurveEnd::SameVerdict)
+    }
+
+    /// The curve through a threshold, to the borders of the windows.
+    fn through(&self, found: &MotionThreshold, along: f64) -> Option<ThresholdCurve> {
         match found.kind {
             // A signature that changes without a grazing, and a branching, have no test function.
             _ if found.kind == ThresholdKind::Separation && found.contacts.is_empty() => None,
@@ -174,11 +219,13 @@ impl ResponsePlane for MotionPlane<'_> {
         }
     }
 
+    /// The verdict on the response with further events near a state on the curve of a grazing, at values of both parameters; `None` if
+    /// no such response exists.
     fn with_events(
         &self,
         found: &MotionThreshold,
         (value, along): (f64, f64),
-        state: &Vec<f64>,
+        state: &[f64],
     ) -> Option<OrbitVerdict> {
         let orbit = motion_near(&self.system(value, along)?, state, 1).ok()?;
         (orbit.signature != found.signature).then(|| orbit.verdict())

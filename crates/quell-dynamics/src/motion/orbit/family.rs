@@ -97,6 +97,39 @@ impl MotionSignature {
             if phases.iter().all(|phase| matches!(phase, ContactPhase::Slip(_))))
     }
 
+    /// What the contacts do in a period, such as "1 stick, 2 reversals"; of several contacts each by its name.
+    pub fn words(&self, contacts: &[String]) -> String {
+        match contacts {
+            [_] => self.words_of(0),
+            several => {
+                let each = several.iter().enumerate();
+                let each =
+                    each.map(|(contact, name)| format!("{name}: {}", self.words_of(contact)));
+                each.collect::<Vec<_>>().join("; ")
+            }
+        }
+    }
+
+    fn words_of(&self, contact: usize) -> String {
+        match (self.throughout(contact), self) {
+            (Some(ContactPhase::Slip(_)), _) => "pure slip".to_owned(),
+            (Some(ContactPhase::Stick), _) => "stick throughout".to_owned(),
+            (Some(ContactPhase::Open), _) => "open throughout".to_owned(),
+            (None, Self::Steady(_)) => "unknown".to_owned(),
+            (None, Self::Events { sequence, .. }) => {
+                let count = |kind| {
+                    sequence.iter().filter(|event| event.0 == kind && event.1 == contact).count()
+                };
+                let kinds = [EventKind::Stick, EventKind::Reversal, EventKind::Separation];
+                let parts = kinds.map(|kind| (count(kind), kind.name()));
+                let parts = parts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| {
+                    format!("{count} {name}{}", if *count == 1 { "" } else { "s" })
+                });
+                parts.collect::<Vec<_>>().join(", ")
+            }
+        }
+    }
+
     /// Number of events of a kind.
     pub fn count(&self, kind: EventKind) -> usize {
         match self {

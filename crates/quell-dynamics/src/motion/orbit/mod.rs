@@ -13,14 +13,16 @@
 //! | `ramp` | a run whose dither grows from zero |
 //! | `cycle_search` | a stable limit cycle from several starts |
 //! | `settled` | the periodic motion on which a run ends |
+//! | `end` | whether a run ends quiet, of every kind of system |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
 //! | `switches` | values at which a run from a start changes to another motion |
-//! | `curves` | their curves over a second parameter |
+//! | `curves`, `threshold_curve` | their curves over a second parameter |
 //! | `sensitivity` | their derivatives with respect to other numbers |
 
 mod approach;
 mod curves;
 mod cycle_search;
+mod end;
 pub mod family;
 mod free;
 mod passages;
@@ -30,15 +32,17 @@ mod recurrence;
 mod sensitivity;
 mod settled;
 mod switches;
+mod threshold_curve;
 mod thresholds;
 mod transient;
 mod watch;
 
-pub use curves::{MotionCurve, MotionCurves, MotionPlane, motion_curves};
+pub use curves::{MotionPlane, motion_curves};
 pub use cycle_search::{
     BASE_STEPS, CycleSearch, NamedStart, TriedStart, base_state, kicked_by, search_cycle,
     squealing_state, usual_starts, without_cycle,
 };
+pub use end::{RunOutcome, displaced};
 pub use free::{NoCycle, free_cycle, limit_cycles};
 pub use periodic::{
     MotionOrbit, NoMotionOrbit, base_motion, is_on_sliding, motion_near, sliding_state,
@@ -46,7 +50,8 @@ pub use periodic::{
 pub use ramp::ramped_motion;
 pub use sensitivity::motion_sensitivity;
 pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};
-pub use switches::{
-    RunOutcome, RunSwitch, RunSwitches, StartOfRun, TriedValue, VariedRun, values_tried,
+pub use switches::{RunSwitch, RunSwitches, StartOfRun, TriedValue, VariedRun, values_tried};
+pub use threshold_curve::{
+    CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
 };
-pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};
+pub use thresholds::{MotionSignatureChange, MotionThreshold, MotionThresholds, motion_thresholds};

@@ -1,13 +1,13 @@
-//! Values of a parameter at which a run of a dithered system changes from a motion in step with the dither to another one, or
-//! back.
+//! Values of a parameter at which a run of a system begins or ceases to end quiet.
 //!
-//! The run is settled at equal steps of the parameter. Between two values with different outcomes the orbit of the run in step is
+//! The run is judged at equal steps of the parameter. Between two values with different outcomes the orbit of the quiet run is
 //! continued; where it loses its stability, and runs on both sides confirm it, is the value. Elsewhere, at the border of a basin
 //! of attraction, the interval is halved.
 
 use quell_model::System;
 
-use super::{NoMotionOrbit, motion_thresholds, ramped_motion, settled};
+use super::end::{RunOutcome, end_of};
+use super::{NoMotionOrbit, motion_thresholds, ramped_motion};
 use crate::orbit::OrbitVerdict;
 use crate::orbit::threshold::ThresholdKind;
 use crate::simulation::within;
@@ -20,30 +20,6 @@ const CONFIRMED: f64 = 1e-3;
 
 /// Steps in which an orbit is continued between two values.
 const STEPS: u32 = 8;
-
-/// The motion on which a run ends.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RunOutcome {
-    /// A periodic motion with the period of the dither; its state.
-    InStep(Vec<f64>),
-    /// A periodic motion with several periods of the dither.
-    Locked(u32),
-    /// A motion that does not repeat itself.
-    NotPeriodic,
-    /// The run cannot be computed.
-    Unknown(String),
-}
-
-impl RunOutcome {
-    /// Whether the motion has the period of the dither; `None` if it is unknown.
-    pub fn is_in_step(&self) -> Option<bool> {
-        match self {
-            Self::InStep(_) => Some(true),
-            Self::Locked(_) | Self::NotPeriodic => Some(false),
-            Self::Unknown(_) => None,
-        }
-    }
-}
 
 /// A change of the outcome.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,8 +45,8 @@ pub struct RunSwitches {
     pub unknown: Vec<(f64, String)>,
 }
 
-/// The state at t = 0 from which a run of a system starts, or why it is unknown.
-pub type StartOfRun<'a> = dyn Fn(&System) -> Result<Vec<f64>, String> + Sync + 'a;
+/// The state at t = 0 from which a run of a system at a value of the parameter starts, or why it is unknown.
+pub type StartOfRun<'a> = dyn Fn(f64, &System) -> Result<Vec<f64>, String> + Sync + 'a;
 
 /// A run over a parameter.
 #[derive(Clone, Copy)]
@@ -90,20 +66,13 @@ impl VariedRun<'_> {
     pub fn outcome(&self, value: f64) -> RunOutcome {
         let settle = || -> Result<RunOutcome, String> {
             let system = (self.at)(&[value])?;
-            let start = (self.start)(&system)?;
+            let start = (self.start)(value, &system)?;
             // Without dither there is nothing to ramp up.
             let start = match ramped_motion(&system, &start, self.ramp) {
                 Err(NoMotionOrbit::NoDither) => start,
                 ramped => ramped.map_err(|why| why.to_string())?,
             };
-            match settled(&system, &start) {
-                Ok(found) if found.multiple == 1 => Ok(RunOutcome::InStep(found.orbit.state)),
-                Ok(found) => Ok(RunOutcome::Locked(found.multiple)),
-                Err(NoMotionOrbit::Unsettled { is_steady: true, .. }) => {
-                    Ok(RunOutcome::NotPeriodic)
-                }
-                Err(why) => Err(why.to_string()),
-            }
+            end_of(&system, &start)
         };
         within(self.most_steps, settle).unwrap_or_else(RunOutcome::Unknown)
     }
@@ -118,18 +87,18 @@ impl VariedRun<'_> {
             .unwrap_or_else(|| self.halved((low, below), (high, above)))
     }
 
-    /// The threshold of the orbit of the run in step, confirmed by runs on both sides.
+    /// The threshold of the orbit of the quiet run, confirmed by runs on both sides.
     fn exact(
         &self,
         (low, below): (f64, &RunOutcome),
         (high, above): (f64, &RunOutcome),
     ) -> Option<RunSwitch> {
-        let (from, to, state) = match (below, above) {
-            (RunOutcome::InStep(state), _) => (low, high, state),
-            (_, RunOutcome::InStep(state)) => (high, low, state),
+        let (from, to, state, periods) = match (below, above) {
+            (RunOutcome::Quiet(state, periods), _) => (low, high, state, periods.unwrap_or(1)),
+            (_, RunOutcome::Quiet(state, periods)) => (high, low, state, periods.unwrap_or(1)),
             _ => return None,
         };
-        let found = motion_thresholds(&self.at, (from, to), STEPS, Some((state, 1))).ok()?;
+        let found = motion_thresholds(&self.at, (from, to), STEPS, Some((state, periods))).ok()?;
         let upwards = to > from;
         let threshold = found.thresholds.iter().find(|threshold| {
             let (near, far) = if upwards {
@@ -141,8 +110,8 @@ impl VariedRun<'_> {
         })?;
         let offset = CONFIRMED * (high - low) + 10.0 * threshold.error;
         let sides = [threshold.value - offset, threshold.value + offset];
-        let [first, last] = sides.map(|value| self.outcome(value.clamp(low, high)).is_in_step());
-        let is_confirmed = first == below.is_in_step() && last == above.is_in_step();
+        let [first, last] = sides.map(|value| self.outcome(value.clamp(low, high)).is_quiet());
+        let is_confirmed = first == below.is_quiet() && last == above.is_quiet();
         is_confirmed.then(|| RunSwitch {
             value: threshold.value,
             error: threshold.error,
@@ -162,9 +131,9 @@ impl VariedRun<'_> {
         while to - from > CLOSENESS * from.abs().max(to.abs()) {
             let middle = 0.5 * (from + to);
             let found = self.outcome(middle);
-            match found.is_in_step() {
+            match found.is_quiet() {
                 None => break,
-                same if same == below.is_in_step() => from = middle,
+                same if same == below.is_quiet() => from = middle,
                 _ => (to, becomes) = (middle, found),
             }
         }
@@ -196,11 +165,10 @@ impl RunSwitches {
         let first = outcomes.first().map(|(_, outcome)| outcome.clone());
         let known: Vec<TriedValue<'_>> = outcomes
             .iter()
-            .filter(|(_, outcome)| outcome.is_in_step().is_some())
+            .filter(|(_, outcome)| outcome.is_quiet().is_some())
             .map(|(value, outcome)| (*value, outcome))
             .collect();
-        let differ =
-            known.windows(2).filter(|pair| pair[0].1.is_in_step() != pair[1].1.is_in_step());
+        let differ = known.windows(2).filter(|pair| pair[0].1.is_quiet() != pair[1].1.is_quiet());
         let pairs: Vec<[TriedValue<'_>; 2]> = differ.map(|pair| [pair[0], pair[1]]).collect();
         let changes = change(&pairs);
         let first = first.unwrap_or_else(|| RunOutcome::Unknown("no value was tried".to_owned()));

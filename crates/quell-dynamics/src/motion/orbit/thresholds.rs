@@ -53,6 +53,17 @@ pub struct MotionThreshold {
     pub fold: Option<Result<FoldCoefficient, NoFirstLyapunov>>,
 }
 
+/// A value at which the events of the response change.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionSignatureChange {
+    /// The parameter.
+    pub value: f64,
+    /// Events for slightly smaller values; `None` without a response.
+    pub below: Option<MotionSignature>,
+    /// Events for slightly larger values; `None` without a response.
+    pub above: Option<MotionSignature>,
+}
+
 /// A response on the branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionBranchPoint {
@@ -71,6 +82,8 @@ pub struct MotionBranchPoint {
 pub struct MotionThresholds {
     /// Changes of stability, in the order of the branch.
     pub thresholds: Vec<MotionThreshold>,
+    /// Changes of the events, in the order of the branch.
+    pub changes: Vec<MotionSignatureChange>,
     /// The computed responses, in the order of the branch.
     pub branch: Vec<MotionBranchPoint>,
     /// How the branch ends.
@@ -130,6 +143,7 @@ pub fn motion_thresholds(
             fold: fold_of(&family, kind, &point.state, &[point.parameter], (to - from).abs()),
         });
     }
+    let changes = branch.special_points.iter().filter_map(signature_change).collect();
     let ending = BranchEnding::of(&branch, from, to);
     let branch = branch.points.iter().map(|point| MotionBranchPoint {
         value: point.parameter,
@@ -137,7 +151,7 @@ pub fn motion_thresholds(
         radius: spectral_radius(&point.multipliers),
         signature: point.signature.clone(),
     });
-    Ok(MotionThresholds { thresholds, branch: branch.collect(), ending })
+    Ok(MotionThresholds { thresholds, changes, branch: branch.collect(), ending })
 }
 
 fn first_state(system: &System) -> Result<Vec<f64>, NoMotionOrbit> {
@@ -146,6 +160,16 @@ fn first_state(system: &System) -> Result<Vec<f64>, NoMotionOrbit> {
         Err(NoMotionOrbit::NoDither) => sliding_state(system).map_err(NoMotionOrbit::NoSliding),
         Err(why) => Err(why),
     }
+}
+
+fn signature_change(point: &SpecialPoint<MotionSignature>) -> Option<MotionSignatureChange> {
+    let signature = |side: &Option<BranchSide<MotionSignature>>| {
+        side.as_ref().map(|side| side.signature.clone())
+    };
+    let (below, above) = (signature(&point.below), signature(&point.above));
+    let is_contact = matches!(point.kind, BifurcationKind::Grazing | BifurcationKind::Border);
+    let value = point.parameter;
+    (is_contact && below != above).then_some(MotionSignatureChange { value, below, above })
 }
 
 fn verdict(side: Option<&BranchSide<MotionSignature>>) -> Option<OrbitVerdict> {

@@ -26,12 +26,12 @@ class Thresholds(_columns.ThresholdsColumns, Result):
     parameter: str
     """Path of the parameter."""
     local: list[dict[str, Any]]
-    """``value`` with its ``error``, ``kind``, ``was``, ``becomes``, and of a belt the state ``displacement``, ``velocity``.
+    """``value`` with its ``error``, ``kind``, ``was``, ``becomes``; under dither or with runs the ``state`` there, ``displacement`` and
+    ``velocity`` of what is observed, and the multipliers on both sides, ``radius_below`` and ``radius_above``.
 
-    Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "branching", "signature", and of a system without dither
-    "hopf", "divergence", "coalescence", with ``frequency``; see :class:`TrackedStability`. Under dither a system also has
-    "separation", and ``state``, ``radius_below`` and ``radius_above``. ``contacts`` of a grazing or a separation names the contacts
-    of a system that graze or open, ``contact`` the first of them.
+    Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "separation", "branching", "signature", and without dither and without
+    runs "hopf", "divergence", "coalescence", with ``frequency``; see :class:`TrackedStability`. ``contacts`` of a grazing or a separation
+    names the contacts that graze or open, ``contact`` the first of them.
 
     ``opens_towards`` of a fold is "larger" or "smaller", the values of the parameter at which two responses exist, or ``None`` with
     the reason in ``why``; it is the sign of ``quadratic_coefficient`` with its ``quadratic_coefficient_error``.
@@ -43,20 +43,20 @@ class Thresholds(_columns.ThresholdsColumns, Result):
     frequency, of the others it is per period.
     """
     signature_changes: list[dict[str, Any]]
-    """Belt: ``value`` at which the events of a period change, and the events ``below`` and ``above``."""
+    """``value`` at which the events of a period change, and the events ``below`` and ``above``."""
     covered: bool
     """Whether the response was continued over the whole range."""
     resumes: bool
     """Whether the last value has an answer again, after a range without one."""
     rests: list[dict[str, Any]]
-    """System without dither: ``value`` at which the surface of a ``contact`` comes to rest."""
+    """Without dither and without runs: ``value`` at which the surface of a ``contact`` comes to rest."""
     from_: float
     """First value of the parameter."""
     to: float
     """Last value of the parameter."""
     from_rest: list[dict[str, Any]]
-    """On request: ``value`` with its ``error``, and the outcome of runs from rest above it, ``becomes``: "quenched", "not
-    quenched", "unsettled" or "unknown"."""
+    """On request: ``value`` with its ``error``, and the outcome of runs from rest above it, ``becomes``: "quenched", "not quenched" or
+    "unknown"; ``kind`` of the threshold of the run's orbit, or ``None`` where the run changes to another motion."""
     from_sliding: list[dict[str, Any]]
     """The same for runs from steady sliding."""
     from_squeal: list[dict[str, Any]]
@@ -64,23 +64,24 @@ class Thresholds(_columns.ThresholdsColumns, Result):
     from_start: list[dict[str, Any]]
     """The same for runs from ``start``."""
     at_from: dict[str, Any]
-    """The outcome at the first value, by protocol; of a system without dither the verdict on ``steady_sliding``."""
+    """The outcome at the first value, by protocol, and the ``verdict`` on the response; without dither and without runs the verdict on
+    ``steady_sliding``."""
     values_tried: int
     """Number of values at which runs were judged."""
     ramp: float
     """Time over which the dither of the runs grows."""
     thresholds: list[dict[str, Any]]
-    """System: the list ``local``."""
+    """Without dither and without runs: the list ``local``."""
     protocol: str
-    """System: the method."""
+    """The method."""
     points: int
-    """System without dither: number of values at which eigenvalues were computed."""
+    """Without dither and without runs: number of values at which eigenvalues were computed."""
     unknown: list[dict[str, Any]]
-    """System without dither: ``from`` and ``to`` of ranges without an answer, and ``why``."""
+    """Without dither and without runs: ``from`` and ``to`` of ranges without an answer, and ``why``."""
     state_names: list[str]
-    """System: names of the numbers of a state."""
+    """Names of the numbers of a state."""
     ending: str | None
-    """System: how the continuation ended."""
+    """How the continuation ended."""
 
 
 class ThresholdCurves(_columns.ThresholdCurvesColumns, Result):
@@ -92,8 +93,8 @@ class ThresholdCurves(_columns.ThresholdCurvesColumns, Result):
     along: str
     """Path of the second parameter."""
     curves: list[dict[str, Any]]
-    """``kind``, ``value`` (n,), ``along`` (n,) of each curve, and with dither ``multiplier_modulus`` (n,) and ``ends``; of a
-    system also ``state`` (n, m) and the ``contacts`` that graze or open. ``criticality`` (n,) and ``first_lyapunov_coefficient`` (n,)
+    """``kind``, ``value`` (n,), ``along`` (n,) of each curve, and with dither ``multiplier_modulus`` (n,), ``ends``, ``state`` (n, m) and
+    the ``contacts`` that graze or open. ``criticality`` (n,) and ``first_lyapunov_coefficient`` (n,)
     of each point, or ``None`` with its reason in ``criticality_reason`` (n,); of folds ``opens_towards`` (n,) likewise."""
     averaged: list[dict[str, Any]]
     """With dither: boundaries of averaging: whether in the ``limit`` R → ∞, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
@@ -104,9 +105,9 @@ class ThresholdCurves(_columns.ThresholdCurvesColumns, Result):
     between: list[float]
     """First and last value of the second parameter."""
     protocol: str
-    """System: the method."""
+    """The method."""
     state_names: list[str]
-    """System: names of the numbers of a state."""
+    """Names of the numbers of a state."""
 
 
 class Bifurcation(_columns.BifurcationColumns, Result):

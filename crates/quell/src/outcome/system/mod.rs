@@ -9,7 +9,6 @@ mod reach;
 mod response;
 mod simulate;
 mod stability;
-mod thresholds;
 mod tracked;
 
 use std::fmt::Write as _;
@@ -25,7 +24,7 @@ use crate::study::UnitSystem;
 const MOST_MOTIONS: usize = 12;
 
 /// The width of a column of values with a unit, two spaces after the longest.
-fn width_of(values: impl Iterator<Item = f64>, unit: &str) -> usize {
+pub(super) fn width_of(values: impl Iterator<Item = f64>, unit: &str) -> usize {
     let widths = values.map(|value| figure(value).chars().count() + unit.chars().count() + 2);
     widths.fold(16, usize::max)
 }

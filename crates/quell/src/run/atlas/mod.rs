@@ -22,8 +22,7 @@ pub(crate) use round_numbers::{
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::parallel::Parallel;
-use crate::run::thresholds::quantity_of;
-use crate::run::varied::key_of;
+use crate::run::varied::{key_of, quantity_of};
 use crate::study::BeltStudy;
 use crate::sweep::Running;
 use crate::words::in_words;

@@ -8,11 +8,11 @@ use std::sync::atomic::Ordering;
 
 use quell_dynamics::simulation::within;
 
+use super::protocol::Protocol;
 use super::system::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run, local_verdict};
-use super::system::protocol::SystemProtocol;
-use super::system::thresholds::ends_are_valid;
 use super::system::tracked::{TrackRequest, understood};
 use super::system::{failed, has_equations};
+use super::thresholds::ends_are_valid;
 use super::varied::{MOST_VALUES, Range};
 use super::{evenly, stopped};
 use crate::complaint::{Complaint, Failure};
@@ -131,7 +131,7 @@ pub fn run(
     running.progress.end();
     swept?;
     let hysteresis = hysteresis(&branches);
-    let start = SystemProtocol::Study.words(study);
+    let start = Protocol::Study.words(study);
     Ok(Bifurcation { range: range.clone(), start, branches, hysteresis })
 }
 
@@ -147,7 +147,7 @@ fn point(
     let system = study.system();
     let begun = match begun {
         Some(state) => state,
-        None => SystemProtocol::Study.state(&study, system)?,
+        None => Protocol::Study.state(&study, system)?,
     };
     let end = end_of_run(system, &study.observe(), &begun);
     let state = end.as_ref().map_or(begun, |end| end.attractor.state.clone());

@@ -14,8 +14,8 @@ use quell_model::parameter::BELT_VELOCITY;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
+use crate::run::protocol::Protocol;
 use crate::run::system::cycle_samples::CycleSamples;
-use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::start::{StateNumbers, start_with};
 use crate::run::system::{failed, has_equations};
 use crate::study::SystemStudy;
@@ -40,7 +40,7 @@ pub enum Wanted {
         periods: u32,
     },
     /// The motion on which a run ends, of any number of periods.
-    After(SystemProtocol),
+    After(Protocol),
 }
 
 impl Default for Wanted {
@@ -132,7 +132,7 @@ fn periodic(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, Fa
                 let allowed = format!("1 without --near: there is no base response, {why}");
                 return Err(Complaint::option("--periods", *periods, allowed).into());
             }
-            Err(why) => reached(study, &SystemProtocol::Study, Some(why))?,
+            Err(why) => reached(study, &Protocol::Study, Some(why))?,
         },
     };
     Ok(PeriodicResponse {
@@ -160,7 +160,7 @@ fn with_samples(
 /// The motion on which a run ends.
 fn reached(
     study: &SystemStudy,
-    protocol: &SystemProtocol,
+    protocol: &Protocol,
     instead: Option<NoMotionOrbit>,
 ) -> Result<(MotionOrbit, u32, FoundBy), Failure> {
     let system = study.system();
@@ -196,7 +196,7 @@ fn undithered(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, 
         let key = study.path_of(&system.contacts[0].name, BELT_VELOCITY);
         return Err(Complaint::new(Fault::Value, key, Origin::Whole, 0.0, why).into());
     }
-    let given = |protocol: &SystemProtocol| -> Result<NamedStart, Failure> {
+    let given = |protocol: &Protocol| -> Result<NamedStart, Failure> {
         Ok((protocol.words(study), protocol.state(study, &free)?))
     };
     let cycles: Option<Vec<FoundMotion>> = limit_cycles(&free).map(|cycles| {
@@ -214,19 +214,19 @@ fn undithered(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, 
             let state = start_with(study, state)?.state;
             (nearest_cycle(&free, cycles, &state).cloned(), Vec::new())
         }
-        (Wanted::After(SystemProtocol::Squeal), Some(cycles)) => {
+        (Wanted::After(Protocol::Squeal), Some(cycles)) => {
             // A complaint where nothing squeals.
-            given(&SystemProtocol::Squeal)?;
+            given(&Protocol::Squeal)?;
             let stable = |cycle: &&FoundMotion| cycle.orbit.verdict() == OrbitVerdict::Stable;
             (cycles.iter().find(stable).cloned(), Vec::new())
         }
-        (Wanted::After(SystemProtocol::Squeal), None) => searched(usual_starts(&free)),
+        (Wanted::After(Protocol::Squeal), None) => searched(usual_starts(&free)),
         (Wanted::After(protocol), _) => searched(vec![given(protocol)?]),
         (Wanted::Near { state, .. }, None) => {
-            searched(vec![given(&SystemProtocol::From(state.clone()))?])
+            searched(vec![given(&Protocol::From(state.clone()))?])
         }
         (Wanted::Base { .. }, None) => {
-            let first = given(&SystemProtocol::Study)?;
+            let first = given(&Protocol::Study)?;
             let mut starts = usual_starts(&free);
             starts.retain(|other| other.1 != first.1);
             starts.insert(0, first);

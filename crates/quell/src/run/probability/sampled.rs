@@ -16,9 +16,9 @@ use crate::contact_state::refused_of_belt;
 use crate::fields::Fields;
 use crate::outcome::disc_units::DiscUnits;
 use crate::range;
+use crate::run::protocol::Protocol;
 use crate::run::stability::FAST;
 use crate::run::system::attractor::{end_of_run, local_verdict};
-use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::{has_equations, in_units};
 use crate::study::{BeltStudy, DiscStudy, ParameterId, SystemStudy, UnitSystem};
 use crate::sweep::{
@@ -290,8 +290,8 @@ impl SampledKind for SystemStudy {
                     verdict => Err(format!("the base response is {verdict}")),
                 };
             }
-            ProbabilityStart::Rest => SystemProtocol::Rest,
-            ProbabilityStart::Squeal => SystemProtocol::Squeal,
+            ProbabilityStart::Rest => Protocol::Rest,
+            ProbabilityStart::Squeal => Protocol::Squeal,
         };
         let state = match protocol.state(self, system) {
             Ok(state) => state,

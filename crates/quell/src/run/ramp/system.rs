@@ -13,9 +13,8 @@ use crate::complaint::Failure;
 use crate::run::belt_system;
 use crate::run::system::has_equations;
 use crate::run::system::simulate::{self, MotionRequest, natural_period};
-use crate::run::system::thresholds::{self, MotionThresholdsRequest, is_dithered_within};
 use crate::run::system::tracked;
-use crate::run::thresholds::side;
+use crate::run::thresholds::{self, ThresholdsRequest, by_eigenvalues, side};
 use crate::study::SystemStudy;
 
 /// Runs the ramp of a system from t = 0 to the last knot.
@@ -117,8 +116,8 @@ fn thresholds(study: &SystemStudy, ramped: &RampCourse) -> Result<Vec<RampThresh
     let in_words = |why: Failure| why.to_string();
     let steady = steady_at(study, ramped.time_of_largest()).map_err(in_words)?;
     let parameter = ramped.path.clone();
-    let request = MotionThresholdsRequest { parameter, window, ..Default::default() };
-    if is_dithered_within(&steady, &request) {
+    let request = ThresholdsRequest { parameter, window, ..Default::default() };
+    if !by_eigenvalues(&steady, &request).map_err(in_words)? {
         let found = thresholds::run(&steady, &request).map_err(in_words)?;
         let local = found.local.map_err(|why| why.to_string())?;
         if local.ending != BranchEnding::Covered && local.thresholds.is_empty() {

@@ -5,11 +5,11 @@ use quell_dynamics::attractor::{
     settle_many,
 };
 use quell_dynamics::motion::orbit::{
-    BASE_STEPS, MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, free_cycle,
-    is_on_sliding, kicked_by, settled, settled_many,
+    BASE_STEPS, MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, displaced,
+    free_cycle, settled, settled_many,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
-use quell_dynamics::response::{BAND_END, vibration_frequency};
+use quell_dynamics::response::is_above_the_band;
 use quell_dynamics::simulation::{Stalled, Start};
 use quell_linear::linearised::Linearised;
 use quell_linear::pure_slip::period;
@@ -31,10 +31,6 @@ const MEASURED: f64 = 20.0;
 
 /// Mismatch of states, relative to their size, of one motion.
 const SAME: f64 = 1e-5;
-
-/// Velocity of the displacement of a start on unstable steady sliding, over that of the surface: far above rounding, so that the
-/// run leaves in time, and far below that of a limit cycle.
-const NUDGE: f64 = 1e-4;
 
 /// The kind of a motion on which a run ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -244,12 +240,6 @@ fn is_base(system: &System, state: &[f64]) -> Option<bool> {
     Some(off <= SAME * size)
 }
 
-/// Whether a motion of a period has no line in the band of the vibration.
-fn is_above_the_band(system: &System, period: f64) -> bool {
-    let lowest = std::f64::consts::TAU / period;
-    vibration_frequency(system).is_some_and(|vibration| lowest > BAND_END * vibration)
-}
-
 /// Verdict on the base response of a dithered system, or on steady sliding without dither.
 ///
 /// # Errors
@@ -268,17 +258,6 @@ pub fn local_verdict(system: &System) -> Result<&'static str, String> {
     let linear = Linearised::new(system).map_err(|why| why.to_string())?;
     let growth = spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())?;
     Ok(growth.verdict().name())
-}
-
-/// A start without dither. A run from unstable steady sliding would stay there until rounding displaces it: such a start is
-/// displaced first, by [`NUDGE`] times the velocity of the surface.
-fn displaced(system: &System, start: &[f64]) -> Vec<f64> {
-    if !is_on_sliding(system, start)
-        || local_verdict(system).as_ref().is_ok_and(|verdict| *verdict == "stable")
-    {
-        return start.to_vec();
-    }
-    kicked_by(system, NUDGE).unwrap_or_else(|| start.to_vec())
 }
 
 fn on_free_motion(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
@@ -321,7 +300,7 @@ fn at_periods(
 }
 
 /// Rate of an observed displacement in a state of masses.
-fn rate_of(row: &[f64], state: &[f64]) -> f64 {
+pub(in crate::run) fn rate_of(row: &[f64], state: &[f64]) -> f64 {
     row.iter().zip(&state[row.len()..]).map(|(weight, velocity)| weight * velocity).sum()
 }
 

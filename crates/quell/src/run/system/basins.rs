@@ -7,7 +7,6 @@ use quell_dynamics::motion::orbit::sliding_state;
 use quell_model::System;
 
 use super::attractor::{EndOfRun, SystemAttractor, ends_of_runs, local_verdict};
-use super::protocol::SystemProtocol;
 use super::start::{state_names, state_quantity};
 use super::tracked::{TrackRequest, understood};
 use super::{failed, has_equations};
@@ -16,6 +15,7 @@ use crate::nearest;
 use crate::parallel::Parallel;
 use crate::quantity;
 use crate::run::basins::{BasinsRequest, MOST_STARTS, Share, StartLayout};
+use crate::run::protocol::Protocol;
 use crate::run::varied::{MOST_VALUES, Range};
 use crate::run::{evenly, stopped};
 use crate::study::SystemStudy;
@@ -208,7 +208,7 @@ pub fn run(
 ) -> Result<SystemBasins, Failure> {
     has_equations(study, "basins")?;
     let places = places(study, request)?;
-    let start = SystemProtocol::Study.state(study, study.system())?;
+    let start = Protocol::Study.state(study, study.system())?;
     let given = [0, 1].map(|number| request.axes[number].window);
     let window_of = |number: usize| {
         given[number].unwrap_or_else(|| window(study.system(), &start, places[number]))
@@ -221,7 +221,7 @@ pub fn run(
     let systems = values.iter().map(|value| {
         let numbers: Vec<_> = over.clone().zip(*value).into_iter().collect();
         let at = study.varied(&numbers).map_err(|why| failed("basins", why))?;
-        let start = SystemProtocol::Study.state(&at, at.system())?;
+        let start = Protocol::Study.state(&at, at.system())?;
         Ok((at, start))
     });
     let systems = systems.collect::<Result<Vec<_>, Failure>>()?;
@@ -265,7 +265,7 @@ pub fn run(
     });
     let portraits = portraits.collect();
     let names = request.axes.each_ref().map(|axis| axis.name.clone());
-    let start = SystemProtocol::Study.words(study);
+    let start = Protocol::Study.words(study);
     let (layout, over) = (request.layout, request.over.clone());
     Ok(SystemBasins { names, windows, layout, starts, start, over, portraits })
 }

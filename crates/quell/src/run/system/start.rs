@@ -109,7 +109,7 @@ pub fn read_state(study: &SystemStudy, text: &str) -> Result<StateNumbers, Compl
 }
 
 /// The complaint about a state given by two numbers.
-pub(super) fn unnamed(option: &'static str, given: &str) -> Complaint {
+fn unnamed(option: &'static str, given: &str) -> Complaint {
     let allowed = "name=value pairs such as x=0.1,velocity.x=-2: a system has many coordinates";
     Complaint::option(option, given, allowed)
 }

@@ -15,7 +15,6 @@ use serde_json::Value as Json;
 
 use super::modes::natural;
 use super::stability::FAR;
-use super::thresholds::reaches_the_band;
 use super::{failed, has_equations, in_units};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::{averaged_without_states, averages_are_a_start, passivity_of_system};
@@ -27,6 +26,7 @@ use crate::run::waveforms::{
     duty_cycle, exact_of_system, in_the_band, searched,
 };
 use crate::study::SystemStudy;
+use quell_dynamics::response::dither_reaches_the_band;
 
 /// Compares waveforms of the first dither of a system.
 ///
@@ -98,7 +98,7 @@ fn exact(
     averaged: &Result<LeastDither, NoAveragedDither>,
     acting: &(dyn Fn(f64) -> System + Sync),
 ) -> Result<f64, String> {
-    if reaches_the_band(&acting(1.0)) {
+    if dither_reaches_the_band(&acting(1.0)) {
         return Err(in_the_band());
     }
     let closed = |amplitude: f64| {

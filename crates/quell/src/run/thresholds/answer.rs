@@ -1,366 +1,247 @@
-//! The answer of `thresholds` in sentences: where the base response is stable, and where runs from each start are quenched.
+//! The answer of `thresholds` as data.
 
-use quell_dynamics::attractor::{Switch, Switches};
+use quell_dynamics::motion::orbit::{
+    MotionSignatureChange, MotionThreshold, RunOutcome, family::MotionSignature,
+};
 use quell_dynamics::orbit::OrbitVerdict;
-use quell_model::Dither;
+use quell_dynamics::orbit::threshold::BranchEnding;
+use quell_dynamics::response::BAND_END;
 use quell_model::units::Quantity;
-use quell_numerics::continuation::criticality::Criticality;
+use serde_json::Value as Json;
 
-use super::{BranchEnding, Threshold, ThresholdKind, Thresholds, path_in_words, quantity_of};
-use crate::run::attractor::unknown;
+use super::curves::put_contacts;
+use super::{TRIED, Thresholds, side};
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
 use crate::run::criticality;
-use crate::run::protocol::Protocol;
-use crate::run::varied::name_of;
-use crate::study::BeltStudy;
-use crate::words::{capital, in_words};
+use crate::run::system::attractor::rate_of;
+use crate::run::system::simulate::beyond_laws;
+use crate::run::system::start::{state_names, state_quantity};
+use crate::study::SystemStudy;
+use crate::words::{digits, plural};
 
-/// One end of an interval of the parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Limit {
-    value: f64,
-    /// Its error, if it is to be shown.
-    error: Option<f64>,
-    /// The kind of threshold; `None` at an end of the range.
-    kind: Option<ThresholdKind>,
-    /// Whether it is supercritical, where that is decided.
-    criticality: Option<Criticality>,
-    /// Whether it is an end of the requested range, or of the part that could be answered.
-    of_range: bool,
-}
-
-/// An interval with the same answer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Interval<T> {
-    from: Limit,
-    to: Limit,
-    answer: T,
-}
-
-impl Limit {
-    fn of_range(value: f64) -> Self {
-        Self { value, error: None, kind: None, criticality: None, of_range: true }
+/// Word of the ending of a branch.
+fn ending_name(ending: BranchEnding) -> &'static str {
+    match ending {
+        BranchEnding::Covered => "covered",
+        BranchEnding::TurnedBack { .. } => "turned-back",
+        BranchEnding::LostTurning { .. } | BranchEnding::Lost { .. } => "lost",
+        BranchEnding::Touch { .. } => "grazing",
     }
 }
 
-/// Merges neighbouring intervals with the same answer.
-fn merged<T: PartialEq>(intervals: Vec<Interval<T>>) -> Vec<Interval<T>> {
-    let mut merged: Vec<Interval<T>> = Vec::new();
-    for interval in intervals {
-        match merged.last_mut() {
-            Some(last) if last.answer == interval.answer => last.to = interval.to,
-            _ => merged.push(interval),
-        }
-    }
-    merged
-}
-
-/// The name of the parameter in sentences, and its values with units.
-struct NamedParameter<'a> {
-    study: &'a BeltStudy,
-    name: String,
-    quantity: Quantity,
-}
-
-impl<'a> NamedParameter<'a> {
-    /// The symbol if it is unambiguous, else the key.
-    fn of(study: &'a BeltStudy, path: &str) -> Self {
-        let belt = study.belt();
-        let one_of_many = path.starts_with("dither") && belt.dithers().len() > 1;
-        let symbol = name_of(study, path).map(|(_, symbol)| symbol);
-        let name = symbol.filter(|symbol| !one_of_many && !symbol.is_empty());
-        let name = name.map_or_else(|| path_in_words(study, path), str::to_owned);
-        Self { study, name, quantity: quantity_of(study, path) }
-    }
-
-    fn number(&self, limit: Limit) -> String {
-        let value = in_words(self.study, self.quantity, limit.value);
-        match limit.error {
-            Some(error) => {
-                format!("{value} ± {}", in_words(self.study, self.quantity, error))
-            }
-            None => value,
-        }
-    }
-
-    fn value(&self, limit: Limit) -> String {
-        format!("{} = {}", self.name, self.number(limit))
-    }
-
-    /// "from D = 1 (fold) to 2 (flip)", "from D = 1 on (fold)", "up to D = 2 (flip)".
-    fn interval<T>(&self, interval: &Interval<T>) -> String {
-        let Interval { from, to, .. } = *interval;
-        let kind = |limit: Limit| {
-            let words = limit.criticality.map(criticality::words);
-            let clause = words.map_or(String::new(), |words| format!(", {words}"));
-            limit.kind.map_or_else(String::new, |kind| format!(" ({}{clause})", kind.name()))
-        };
-        match (from.of_range, to.of_range) {
-            (true, true) => {
-                format!("at every {} from {} to {}", self.name, self.number(from), self.number(to))
-            }
-            (false, true) => format!("from {} on{}", self.value(from), kind(from)),
-            (true, false) => format!("up to {}{}", self.value(to), kind(to)),
-            (false, false) => {
-                let (first, last) = (self.value(from), self.number(to));
-                format!("from {first}{} to {last}{}", kind(from), kind(to))
-            }
-        }
-    }
-
-    fn intervals<'b, T: 'b>(&self, list: impl IntoIterator<Item = &'b Interval<T>>) -> String {
-        let each: Vec<String> = list.into_iter().map(|interval| self.interval(interval)).collect();
-        listed(&each, "and")
-    }
-
-    /// The range that all intervals cover: "D from 1 to 2".
-    fn whole<T>(&self, intervals: &[Interval<T>]) -> String {
-        let ends = intervals.first().zip(intervals.last());
-        ends.map_or_else(String::new, |(first, last)| {
-            format!("{} from {} to {}", self.name, self.number(first.from), self.number(last.to))
-        })
+/// The last value of a branch that does not cover the window.
+pub(super) fn end_of(ending: BranchEnding) -> Option<f64> {
+    match ending {
+        BranchEnding::Covered => None,
+        BranchEnding::TurnedBack { at }
+        | BranchEnding::Touch { at }
+        | BranchEnding::Lost { at } => Some(at),
+        BranchEnding::LostTurning { furthest, .. } => Some(furthest),
     }
 }
 
 impl Thresholds {
-    /// Where the base response is stable, and where the dither quenches runs from each start.
-    pub fn sentence(&self, study: &BeltStudy) -> String {
-        let parameter = NamedParameter::of(study, &self.question.parameter);
-        let acts = |dither: &Dither| dither.amplitude > 0.0;
-        let is_varied = self.question.parameter.starts_with("dither");
-        let dithered = is_varied || study.belt().dithers().iter().any(acts);
-        let mut sentences = vec![self.of_the_base_response(&parameter, dithered)];
-        // Starts with the same answer share a sentence.
-        let mut answers: Vec<(Vec<String>, String)> = Vec::new();
-        for (protocol, switches) in &self.protocols {
-            let answer = self.of_runs(&parameter, switches, dithered);
-            let start = start_in_words(study, *protocol);
-            match answers.iter_mut().find(|(_, said)| *said == answer) {
-                Some((starts, _)) => starts.push(start),
-                None => answers.push((vec![start], answer)),
-            }
-        }
-        for (starts, answer) in answers {
-            let (starts, ramp) = (listed(&starts, "or"), self.ramp_in_words(study));
-            sentences.push(format!("For runs started {starts}{ramp}, {answer}."));
-        }
-        sentences.join(" ")
+    /// A value of the parameter with its unit.
+    pub fn value(&self, study: &SystemStudy, value: f64) -> String {
+        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
+        format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
     }
 
-    /// The intervals of the base response from the first value until it turns back or ends, and the threshold there.
-    fn base_response(&self) -> (Vec<Interval<OrbitVerdict>>, Option<&Threshold>) {
-        let Some(first) = self.local.branch.first() else { return (Vec::new(), None) };
-        let mut intervals = Vec::new();
-        let mut from = Limit::of_range(self.question.from);
-        let mut answer = OrbitVerdict::of(first.radius, 0.0);
-        for threshold in &self.local.thresholds {
-            let Threshold { value, kind, becomes, was, .. } = *threshold;
-            let found = threshold.first_lyapunov.map_err(|why| why.to_string());
-            let criticality = criticality::decided(&found).ok();
-            let limit =
-                Limit { value, error: None, kind: Some(kind), criticality, of_range: false };
-            intervals.push(Interval { from, to: limit, answer });
-            // No response on one side: the branch ends or turns back there.
-            let (Some(_), Some(next)) = (was, becomes) else {
-                return (merged(intervals), Some(threshold));
+    /// The outcome of a run in words. A dither in the band of the vibration itself cannot quench it.
+    pub fn words(&self, outcome: &RunOutcome) -> &'static str {
+        match (outcome.is_quiet(), self.in_band) {
+            (Some(true), false) => "quenched",
+            (Some(true), true) => "in step with the dither",
+            (Some(false), false) => "not quenched",
+            (Some(false), true) => "not in step with the dither",
+            (None, _) => "unknown",
+        }
+    }
+
+    /// Warnings: those of the study, and values at which the outcome of a run is unknown.
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let path = &self.request.parameter;
+        let unknown = self.runs.iter().filter_map(|(protocol, switches)| {
+            let (value, why) = switches.unknown.first()?;
+            let more = match switches.unknown.len() - 1 {
+                0 => String::new(),
+                more => format!("; it is also unknown at {more} more value{}", plural(more)),
             };
-            (from, answer) = (limit, next);
-        }
-        let to = match self.local.ending {
-            BranchEnding::Covered => self.question.to,
-            BranchEnding::TurnedBack { at }
-            | BranchEnding::Touch { at }
-            | BranchEnding::Lost { at } => at,
-            BranchEnding::LostTurning { furthest, .. } => furthest,
-        };
-        intervals.push(Interval { from, to: Limit::of_range(to), answer });
-        (merged(intervals), None)
-    }
-
-    fn of_the_base_response(&self, parameter: &NamedParameter<'_>, dithered: bool) -> String {
-        if let Some(why) = &self.no_base {
-            let first = parameter.value(Limit::of_range(self.question.from));
-            let last = parameter.value(Limit::of_range(self.question.to));
-            let again = if self.resumes {
-                format!(
-                    "; at {last} a base response exists again (begin the range beyond the gap to find its thresholds)"
-                )
-            } else {
-                String::new()
-            };
-            return format!("At {first} {}{again}.", unknown(why));
-        }
-        let subject = if dithered { "the base response" } else { "steady sliding" };
-        let (intervals, end) = self.base_response();
-        let is_stable =
-            |interval: &&Interval<OrbitVerdict>| interval.answer == OrbitVerdict::Stable;
-        let stable: Vec<&Interval<OrbitVerdict>> = intervals.iter().filter(is_stable).collect();
-        let statement = match (stable.len(), intervals.as_slice()) {
-            (0, all) => {
-                let unstable = all.iter().all(|interval| interval.answer == OrbitVerdict::Unstable);
-                let covered = end.is_none() && self.local.ending == BranchEnding::Covered;
-                let none = if covered { " (no threshold in this range)" } else { "" };
-                if unstable {
-                    format!("{subject} is unstable at every {}{none}", parameter.whole(all))
-                } else {
-                    format!("{subject} is stable at no {}", parameter.whole(all))
-                }
-            }
-            (_, [only]) if only.to.of_range => {
-                let covered = self.local.ending == BranchEnding::Covered;
-                let none = if covered { " (no threshold in this range)" } else { "" };
-                format!("{subject} is stable {}{none}", parameter.interval(only))
-            }
-            (1, all) => {
-                let only = stable[0];
-                let interval = parameter.interval(only);
-                let statement = format!("{subject} is stable {interval}");
-                // Undecided values occur only at thresholds, and are listed in the table.
-                let unstable =
-                    all.iter().filter(|interval| interval.answer == OrbitVerdict::Unstable).count();
-                match (only.from.of_range, only.to.of_range) {
-                    _ if unstable + 1 < all.len() || all.len() == 1 => statement,
-                    (false, true) => {
-                        format!("{statement} and unstable below")
-                    }
-                    (true, false) => {
-                        format!("{statement} and unstable above")
-                    }
-                    _ => format!("{statement} and unstable outside this interval"),
-                }
-            }
-            _ => format!("{subject} is stable {}", parameter.intervals(stable)),
-        };
-        let stable_until_then = intervals.last().as_ref().is_some_and(is_stable);
-        let ends = self.of_the_end(parameter, end, stable_until_then);
-        format!("{}.{ends}", capital(&statement))
-    }
-
-    /// Where and why the base response ends within the range.
-    fn of_the_end(
-        &self,
-        parameter: &NamedParameter<'_>,
-        end: Option<&Threshold>,
-        said_already: bool,
-    ) -> String {
-        let at = |value: f64| parameter.value(Limit::of_range(value));
-        let beyond = if self.resumes {
-            let last = at(self.question.to);
+            let (start, value) = (protocol.words(study), self.value(study, *value));
+            Some(format!(
+                "the outcome of the run {start} at {path} = {value} is unknown: {why}{more}"
+            ))
+        });
+        let in_band = (self.in_band && !self.runs.is_empty()).then(|| {
             format!(
-                "at {last} a base response exists again (begin the range beyond the gap to find its thresholds)"
+                "the dither acts at or below {BAND_END} times the frequency of the vibration, in its band: a run in step with it still \
+                 vibrates; `response` gives the remaining amplitude"
             )
-        } else {
-            "beyond, runs end on another response".to_owned()
+        });
+        let least = self.silent.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = self.silent.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let silent = (!self.silent.is_empty()).then(|| {
+            let (least, most) = (self.value(study, least), self.value(study, most));
+            format!(
+                "at values of {path} between {least} and {most} no squeal was found without dither: the run from the undithered limit \
+                 cycle starts from steady sliding there"
+            )
+        });
+        let beyond = beyond_laws(study, |contact| self.slip[contact]);
+        study
+            .warnings()
+            .iter()
+            .cloned()
+            .chain(silent)
+            .chain(beyond)
+            .chain(in_band)
+            .chain(unknown)
+            .collect()
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let (from, to) = self.request.window;
+        let unit = study.unit_of(&self.request.parameter).unwrap_or("1");
+        let mut fields = Fields::of_system(study.units());
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("protocol", "local: Floquet multipliers of the periodic motion")
+            .plain("parameter", self.request.parameter.clone())
+            .measured("from", unit, from)
+            .measured("to", unit, to)
+            .plain("state_names", state_names(study.system()))
+            .plain("resumes", self.resumes);
+        match &self.local {
+            Ok(local) => {
+                fields
+                    .plain("covered", local.ending == BranchEnding::Covered)
+                    .plain("ending", ending_name(local.ending));
+                if let Some(at) = end_of(local.ending) {
+                    fields.measured("furthest", unit, at);
+                }
+                let found = local.thresholds.iter().map(|found| put(study, unit, found));
+                fields.list("local", found);
+                let changes = local.changes.iter().map(|change| put_change(study, unit, change));
+                fields.list("signature_changes", changes);
+            }
+            Err(why) => {
+                fields.plain("covered", false).unknown("ending", why.to_string());
+                fields.list("local", Vec::new()).list("signature_changes", Vec::new());
+            }
+        }
+        self.put_runs(&mut fields, study, unit);
+        fields.plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    fn put_runs(&self, fields: &mut Fields, study: &SystemStudy, unit: &str) {
+        let mut at_from = Fields::of_system(study.units());
+        let first = self.local.as_ref().map(|local| local.branch.first());
+        match first {
+            Ok(Some(point)) => at_from.plain("verdict", OrbitVerdict::of(point.radius, 0.0).name()),
+            Ok(None) => at_from.unknown("verdict", "no response was followed"),
+            Err(why) => at_from.unknown("verdict", why.to_string()),
         };
-        match (end, self.local.ending) {
-            (Some(end), _) if said_already => {
-                let ends = if end.kind == ThresholdKind::Fold { "turns back" } else { "ends" };
-                format!(" There it {ends}; {beyond}.")
-            }
-            (Some(end), _)
-                if end.kind == ThresholdKind::Fold
-                    || self.local.ending == BranchEnding::Covered =>
-            {
-                format!(" It turns back at {} ({}); {beyond}.", at(end.value), end.kind.name())
-            }
-            (Some(end), _) => {
-                format!(" It ends at {} ({}); {beyond}.", at(end.value), end.kind.name())
-            }
-            (None, BranchEnding::Covered) => String::new(),
-            (
-                None,
-                BranchEnding::TurnedBack { at: value }
-                | BranchEnding::LostTurning { furthest: value, .. },
-            ) => {
-                format!(" It turns back at {}; {beyond}.", at(value))
-            }
-            (None, BranchEnding::Touch { at: value }) => {
-                format!(" It ends at {}, where it grazes v_r = 0; {beyond}.", at(value))
-            }
-            (None, BranchEnding::Lost { at: value }) => {
-                let then =
-                    if self.resumes { beyond.as_str() } else { "the rest of the range is unknown" };
-                format!(" It could not be continued beyond {}; {then}.", at(value))
+        for (protocol, switches) in &self.runs {
+            at_from.plain(protocol.name(), self.words(&switches.first));
+            let changes = switches.changes.iter().map(|change| {
+                let mut inner = Fields::of_system(study.units());
+                inner
+                    .measured("value", unit, change.value)
+                    .measured("error", unit, change.error)
+                    .plain("becomes", self.words(&change.becomes));
+                match change.kind {
+                    Some(kind) => inner.plain("kind", kind.name()),
+                    None => inner.unknown("kind", "the run changes to another motion there"),
+                };
+                inner
+            });
+            fields.list(protocol.name(), changes);
+        }
+        fields.nested("at_from", at_from);
+        if !self.runs.is_empty() {
+            fields.plain("values_tried", TRIED + 1);
+            if self.request.ramp > 0.0 {
+                fields.number("ramp", Quantity::Time, self.request.ramp);
             }
         }
     }
-
-    fn ramp_in_words(&self, study: &BeltStudy) -> String {
-        if self.question.ramp > 0.0 {
-            let time = in_words(study, Quantity::Time, self.question.ramp);
-            format!(" with the dither ramped up over {time}")
-        } else {
-            String::new()
-        }
-    }
-
-    /// The intervals in which runs from a start are quenched.
-    fn of_runs(
-        &self,
-        parameter: &NamedParameter<'_>,
-        switches: &Switches,
-        dithered: bool,
-    ) -> String {
-        let intervals = runs(self.question.from, self.question.to, switches);
-        let of = |wanted: Option<bool>| -> Vec<&Interval<Option<bool>>> {
-            intervals.iter().filter(|interval| interval.answer == wanted).collect()
-        };
-        let verb = match (dithered, self.in_band) {
-            (false, _) => "the run ends in steady sliding",
-            (true, true) => "the run falls into step with the dither",
-            (true, false) => "the dither quenches",
-        };
-        let quenched = of(Some(true));
-        let answer = if quenched.is_empty() {
-            format!("{verb} at no {}", parameter.whole(&intervals))
-        } else {
-            format!("{verb} {}", parameter.intervals(quenched))
-        };
-        let open = of(None);
-        if open.is_empty() {
-            return answer;
-        }
-        format!("{answer}; the outcome is unknown {}", parameter.intervals(open))
-    }
 }
 
-/// A start as text that follows "started".
-fn start_in_words(study: &BeltStudy, protocol: Protocol) -> String {
-    match protocol {
-        Protocol::Rest => "from rest".to_owned(),
-        Protocol::Sliding => "from steady sliding".to_owned(),
-        Protocol::Squeal => "in full squeal".to_owned(),
-        Protocol::From(displacement, velocity) => format!(
-            "at x = {}, x′ = {}",
-            in_words(study, Quantity::Displacement, displacement),
-            in_words(study, Quantity::Velocity, velocity)
-        ),
-    }
+/// One change of the events.
+fn put_change(study: &SystemStudy, unit: &str, change: &MotionSignatureChange) -> Fields {
+    let words = |side: &Option<MotionSignature>| events_in_words(study, side.as_ref());
+    let mut inner = Fields::of_system(study.units());
+    inner
+        .measured("value", unit, change.value)
+        .plain("below", words(&change.below))
+        .plain("above", words(&change.above));
+    inner
 }
 
-/// "a", "a and b", "a, b and c".
-fn listed(each: &[String], and: &str) -> String {
-    match each.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, before)) => format!("{} {and} {last}", before.join(", ")),
-        None => String::new(),
-    }
+/// The events of a response in words; "none" where there is no response.
+pub(crate) fn events_in_words(study: &SystemStudy, side: Option<&MotionSignature>) -> String {
+    let names: Vec<String> =
+        study.system().contacts.iter().map(|contact| contact.name.clone()).collect();
+    side.map_or_else(|| "none".to_owned(), |events| events.words(&names))
 }
 
-/// The intervals in which runs have the same outcome.
-fn runs(from: f64, to: f64, switches: &Switches) -> Vec<Interval<Option<bool>>> {
-    let limit = |switch: &Switch| Limit {
-        value: switch.value,
-        error: (!switch.is_close()).then_some(switch.error),
-        kind: None,
-        criticality: None,
-        of_range: false,
-    };
-    let begins = std::iter::once((Limit::of_range(from), switches.first))
-        .chain(switches.changes.iter().map(|switch| (limit(switch), switch.becomes)));
-    let ends = switches.changes.iter().map(limit).chain(std::iter::once(Limit::of_range(to)));
-    let each = begins.zip(ends).map(|((from, reached), to)| {
-        let answer = reached.is_quiet();
-        Interval { from, to, answer }
-    });
-    merged(each.collect())
+/// One threshold; `unit` is that of the parameter.
+fn put(study: &SystemStudy, unit: &str, found: &MotionThreshold) -> Fields {
+    let mut fields = Fields::of_system(study.units());
+    fields
+        .measured("value", unit, found.value)
+        .measured("error", unit, found.error)
+        .plain("kind", found.kind.name())
+        .plain("was", side(found.was))
+        .plain("becomes", side(found.becomes))
+        .plain("state", found.state.clone());
+    let observe = study.observe();
+    let displacement = observe.iter().zip(&found.state).map(|(w, x)| w * x).sum();
+    let is_mechanical = study.system().structure.mechanical().is_some();
+    let velocity = is_mechanical.then(|| rate_of(&observe, &found.state));
+    let without = || "the states of first-order equations contain no velocity".to_owned();
+    fields.number("displacement", Quantity::Displacement, displacement).known(
+        "velocity",
+        Quantity::Velocity,
+        velocity.ok_or_else(without),
+    );
+    put_contacts(&mut fields, study, &found.contacts);
+    let names = ["radius_below", "radius_above"];
+    for (name, radius) in names.into_iter().zip(found.radii) {
+        match radius {
+            Some(radius) => fields.plain(name, radius),
+            None => fields.unknown(name, "the motion does not exist on this side"),
+        };
+    }
+    let length = study.units().unit(Quantity::Displacement).unwrap_or("1");
+    criticality::put_fold(&mut fields, [unit, length], &found.fold);
+    let found = found.first_lyapunov.map_err(|why| why.to_string());
+    criticality::put(&mut fields, length, &found);
+    fields
+}
+
+impl Thresholds {
+    /// The motions of the branch: parameter, modulus of the deciding multiplier and state.
+    pub fn dataset(&self, study: &SystemStudy) -> Option<Dataset> {
+        let branch = &self.local.as_ref().ok()?.branch;
+        let path = &self.request.parameter;
+        let unit = study.unit_of(path).unwrap_or("1");
+        let rows = (0..branch.len()).map(|row| row as f64).collect();
+        let dataset = Dataset::of(&study.into(), "thresholds")
+            .fact(format!("parameter: {path}"))
+            .with_axis(Array::new("point", "1", rows))
+            .with(Array::new("parameter", unit, branch.iter().map(|point| point.value).collect()))
+            .with(Array::new("radius", "1", branch.iter().map(|point| point.radius).collect()));
+        let names = state_names(study.system()).into_iter().enumerate();
+        Some(names.fold(dataset, |dataset, (place, name)| {
+            let quantity = state_quantity(study.system(), place);
+            let unit = quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1");
+            let values = branch.iter().map(|point| point.state[place]).collect();
+            dataset.with(Array::new(format!("state.{name}"), unit, values))
+        }))
+    }
 }

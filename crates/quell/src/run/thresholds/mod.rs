@@ -1,158 +1,270 @@
-//! `thresholds`: values of a parameter at which the response changes: local thresholds by Floquet multipliers, and for runs
-//! from given starts the values at which dither starts or stops quenching. `answer` puts them into sentences.
-
-use quell_dynamics::attractor::{
-    AttractorSettings, Reached, SWITCH_CLOSENESS, StroboscopicSection, Switches, ramped, switches,
-};
-use quell_dynamics::orbit::NoOrbit;
-use quell_dynamics::orbit::family::BeltAt;
-pub use quell_dynamics::orbit::family::Signature;
-pub use quell_dynamics::orbit::threshold::{
-    BranchEnding, Local, SignatureChange, Threshold, ThresholdKind,
-};
-use quell_dynamics::orbit::threshold::{NoThresholds, local};
-use quell_dynamics::response::BAND_END;
-use quell_dynamics::simulation::{Start, within};
-use quell_dynamics::start::NoSquealingStart;
-use quell_model::units::Quantity;
-use serde_json::Value as Json;
-
-use super::attractor::{self, unknown};
-use super::criticality;
-use super::protocol::Protocol;
-use super::varied::{Named, ascending, key_of};
-use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
-use crate::contact_state::refused_of_belt;
-use crate::document::given_number;
-use crate::effort::STEPS_OF_MANY_SEARCHES;
-use crate::fields::Fields;
-use crate::quantity::bearable;
-use crate::quantity::unit_of;
-use crate::range::SlipMet;
-use crate::study::{BeltStudy, InitialState};
-use crate::words::{digits, in_words, plural};
+//! `thresholds`: values of a parameter at which the base response, or a periodic motion near a state, gains or loses stability, and
+//! those at which runs from given starts begin or cease to end quiet. `answer` has the answer as data, `sentence` in words, and
+//! `curves` the thresholds over a second parameter. Without dither and without runs, eigenvalues decide
+//! ([`tracked`](super::system::tracked)).
 
 mod answer;
+pub mod curves;
+mod sentence;
+
+use std::f64::consts::TAU;
+use std::sync::Mutex;
+
+use quell_dynamics::motion::orbit::{
+    BASE_STEPS, MotionThresholds, NoMotionOrbit, RunOutcome, RunSwitches, VariedRun, base_motion,
+    motion_thresholds, sliding_state, values_tried,
+};
+use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::threshold::BranchEnding;
+use quell_dynamics::response::{dither_reaches_the_band, vibration_frequency};
+use quell_linear::pure_slip::period;
+use quell_model::System;
+use serde_json::Value as Json;
+
+use super::protocol::Protocol;
+use super::system::attractor::local_verdict;
+use super::system::cycle_samples::CycleSamples;
+use super::system::start::{StateNumbers, start_with};
+use super::system::tracked::{TrackRequest, understood};
+use super::system::{failed, has_equations};
+use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::document::given_number;
+use crate::effort::STEPS_OF_A_SEARCH;
+use crate::parallel::Parallel;
+use crate::quantity::bearable;
+use crate::study::SystemStudy;
+
+pub(crate) use answer::events_in_words;
+
+/// Equal steps between the values at which runs are tried; two changes between neighbouring values that cancel are missed.
+pub const TRIED: u32 = 40;
 
 /// Minimum number of continuation steps over the range.
 const STEPS: u32 = 40;
 
-/// Equal steps between the values tried for a start; two changes between neighbouring values that cancel are missed.
-pub const TRIED: u32 = 40;
+/// Periods of the vibration over which the slip of a run from its start is observed: the first ones, in which a transient is largest.
+const SLOW_PERIODS: f64 = 4.0;
 
 /// Options of `thresholds`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ThresholdsRequest {
-    /// Path of the parameter; an SI key is allowed in a study in SI.
+    /// Path of the parameter.
     pub parameter: String,
-    /// First value, in the unit of that key.
-    pub from: f64,
-    /// Last value, above the first.
-    pub to: f64,
-    /// Protocols to run in addition to the local thresholds.
+    /// First and last value, in the unit of that key.
+    pub window: (f64, f64),
+    /// Numbers of a state near which the motion to follow is searched at the first value, and its number of dither periods; the
+    /// base response if `None`.
+    pub near: Option<(StateNumbers, u32)>,
+    /// Runs to follow in addition.
     pub protocols: Vec<Protocol>,
-    /// Time τ over which the dither of a protocol is ramped up from zero, in steps of its period; 0 switches it on at once.
+    /// Time over which the dither of a run is ramped up from zero, in steps of its period; 0 switches it on at once.
     pub ramp: f64,
 }
 
+impl ThresholdsRequest {
+    /// The same parameter and window for eigenvalues.
+    pub fn tracked(&self) -> TrackRequest {
+        TrackRequest { parameter: self.parameter.clone(), window: self.window, along: None }
+    }
+}
+
 /// The thresholds of a parameter.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Thresholds {
-    /// The request, in numbers of the equations.
-    pub question: ThresholdsRequest,
-    /// The parameter as it was asked for.
-    pub asked: Named,
-    /// Thresholds by multipliers, with the branch of responses that contains them.
-    pub local: Local,
-    /// Why no base response exists at the first value, if only runs are judged.
-    pub no_base: Option<NoOrbit>,
+    /// The request.
+    pub request: ThresholdsRequest,
+    /// The branch of motions and its changes of stability, or why no such branch exists.
+    pub local: Result<MotionThresholds, NoMotionOrbit>,
     /// Whether a base response exists at the last value although the branch ends before it.
     pub resumes: bool,
-    /// Thresholds by runs from each start.
-    pub protocols: Vec<(Protocol, Switches)>,
-    /// The slip reached by the responses at both ends and at the thresholds, and by the runs at their beginning.
-    pub slip: SlipMet,
-    /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9), somewhere in the range.
+    /// The changes of each run.
+    pub runs: Vec<(Protocol, RunSwitches)>,
+    /// Whether a dither acts in the band of the fastest growing vibration at an end of the window, so that a motion in step with it
+    /// may vibrate.
     pub in_band: bool,
+    /// Whether a dither acts somewhere in the window.
+    pub dithered: bool,
+    /// Largest slip speed that each contact reaches: of the responses at the thresholds and at both ends of the branch, and of the runs from their starts at the ends of
+    /// the window and at their changes, over a few periods of the vibration.
+    pub slip: Vec<f64>,
+    /// Values at which nothing squeals without dither, so that the run from squeal starts from steady sliding.
+    pub silent: Vec<f64>,
 }
 
-/// The key of a number of the equations, in SI if the study is in SI.
-pub fn path_in_words(study: &BeltStudy, path: &str) -> String {
-    key_of(study, path)
-}
-
-/// A value of a number of the equations, in SI if the study is in SI.
-pub fn value_in_words(study: &BeltStudy, path: &str, value: f64) -> String {
-    if study.scales().is_none() {
-        return value.to_string();
-    }
-    match quantity_of(study, path) {
-        // The path names ζ for any key that the study uses.
-        Quantity::DampingRatio => digits(value),
-        quantity => in_words(study, quantity, value),
-    }
-}
-
-/// The quantity of a number of the equations.
-pub fn quantity_of(study: &BeltStudy, path: &str) -> Quantity {
-    study.address(path).ok().and_then(|address| address.quantity).unwrap_or(Quantity::Ratio)
-}
-
-/// The failure that reports why there are no thresholds.
-pub(super) fn refused(
-    study: &BeltStudy,
-    why: NoThresholds,
+/// Rejects a window at whose ends the study is not valid.
+pub(super) fn ends_are_valid(
+    study: &SystemStudy,
     path: &str,
-    option: &'static str,
-) -> Failure {
-    let key = path_in_words(study, path);
-    let words = |value: f64| value_in_words(study, path, value);
-    match why {
-        NoThresholds::Invalid { value } => {
-            Complaint::option(option, words(value), format!("a value that {key} can take")).into()
-        }
-        NoThresholds::Start(why) if why.is_absence() || is_lost(why) => Failure::Failed {
-            key: "thresholds".to_owned(),
-            why: format!(
-                "{} at the first value: begin where a base response exists, or request runs (--from-rest, --from-squeal, …)",
-                unknown(&why)
-            ),
-        },
-        NoThresholds::Start(why) => attractor::refused(why),
-        NoThresholds::Lost { at } => Failure::Failed {
-            key: "thresholds".to_owned(),
-            why: format!("the continuation lost the response beyond {key} = {}", words(at)),
-        },
+    (from, to): (f64, f64),
+) -> Result<(), Failure> {
+    let model = study.model();
+    let parameter = model.parameter(path)?;
+    for (option, value) in [("--from", from), ("--to", to)] {
+        model.at(&[(parameter.clone(), value)]).map_err(|why| {
+            let allowed = format!("a value that {path} can take: {why}");
+            Complaint::option(option, given_number(value), allowed)
+        })?;
     }
+    Ok(())
 }
 
-/// The request in numbers of the equations.
+/// Whether some dither acts at an end of the window.
+pub fn is_dithered_within(study: &SystemStudy, request: &ThresholdsRequest) -> bool {
+    let (from, to) = request.window;
+    let model = study.model();
+    let Ok(parameter) = model.parameter(&request.parameter) else { return false };
+    study.system().is_dithered()
+        || [from, to].iter().any(|value| {
+            model.at(&[(parameter.clone(), *value)]).is_ok_and(|system| system.is_dithered())
+        })
+}
+
+/// Whether eigenvalues of steady sliding decide: no dither acts in the window, and no run is requested.
 ///
 /// # Errors
-/// Every complaint about it at once.
-fn understood(
-    study: &BeltStudy,
-    question: ThresholdsRequest,
-) -> Result<(Named, ThresholdsRequest), Failure> {
-    let ThresholdsRequest { from, to, ramp, .. } = question;
-    let named = Named::new(study, "--parameter", &question.parameter)?;
-    let ends = [("--from", from), ("--to", to)];
-    let mut wrong: Vec<Complaint> =
-        ends.into_iter().flat_map(|end| named.unable(study, end)).collect();
-    wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
-    wrong.extend(named.without_effect(study, "--parameter", (from, to)).filter(|_| from < to));
-    wrong.extend(can_ramp(ramp, question.protocols.is_empty()).err().into_iter().flatten());
-    if !wrong.is_empty() {
-        return Err(wrong.into());
+/// A complaint about each option that is about dithered motions where no dither acts.
+pub fn by_eigenvalues(study: &SystemStudy, request: &ThresholdsRequest) -> Result<bool, Failure> {
+    if is_dithered_within(study, request) {
+        return Ok(false);
     }
-    slides(study, &named, from)?;
-    let (from, to) = (named.of(from), named.of(to));
-    let parameter = named.path.clone();
-    Ok((named, ThresholdsRequest { parameter, from, to, ..question }))
+    without_dither(request)?;
+    Ok(request.protocols.is_empty())
+}
+
+/// Thresholds of a study.
+///
+/// # Errors
+/// Complaints about the request; [`Failure::Failed`] if there is no periodic motion at the first value and no run is requested.
+pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Thresholds, Failure> {
+    has_equations(study, "thresholds")?;
+    understood(study, &request.tracked())?;
+    can_ramp(request.ramp, request.protocols.is_empty())?;
+    let path = request.parameter.as_str();
+    let model = study.model();
+    let parameter = model.parameter(path)?;
+    let dithered = is_dithered_within(study, request);
+    let at = |values: &[f64]| -> Result<System, String> {
+        let system = model.at(&[(parameter.clone(), values[0])]).map_err(|why| why.to_string())?;
+        // A dither of amplitude 0 has no period of its own.
+        Ok(if dithered { system } else { system.undithered() })
+    };
+    let (from, to) = request.window;
+    ends_are_valid(study, path, (from, to))?;
+    let local = match &request.near {
+        Some((numbers, periods)) => {
+            let guess = start_with(study, numbers)?.state;
+            motion_thresholds(&at, (from, to), STEPS, Some((&guess, *periods)))
+        }
+        None => motion_thresholds(&at, (from, to), STEPS, None),
+    };
+    if let Err(why) = &local
+        && (request.protocols.is_empty() || request.near.is_some())
+    {
+        return Err(failed(
+            "thresholds",
+            format!(
+                "{why}, at {path} = {from}: begin where a base response exists, give a state near another motion (--near), or \
+                 request runs (--from-rest, --from-squeal, …)"
+            ),
+        ));
+    }
+    let ends = local.as_ref().is_ok_and(|local| local.ending != BranchEnding::Covered);
+    let resumes = (local.is_err() || ends)
+        && request.near.is_none()
+        && at(&[to]).is_ok_and(|system| base_motion(&system, BASE_STEPS).is_ok());
+    let silent = Mutex::new(Vec::new());
+    let runs = request.protocols.iter().map(|protocol| {
+        let start = |value: f64, system: &System| match protocol.state(study, system) {
+            Err(_) if *protocol == Protocol::Squeal && slides_steadily(system) => {
+                if let Ok(mut silent) = silent.lock() {
+                    silent.push(value);
+                }
+                sliding_state(system).map_err(|why| why.to_string())
+            }
+            state => state.map_err(|why| why_of(&why)),
+        };
+        let run =
+            VariedRun { start: &start, ramp: request.ramp, at: &at, most_steps: STEPS_OF_A_SEARCH };
+        (protocol.clone(), side_by_side(&run, request.window))
+    });
+    let runs: Vec<(Protocol, RunSwitches)> = runs.collect();
+    let in_band = [from, to]
+        .iter()
+        .any(|value| at(&[*value]).is_ok_and(|system| dither_reaches_the_band(&system)));
+    let slip = largest_slip(study, &at, request, (&local, &runs));
+    let silent = silent.into_inner().unwrap_or_default();
+    let request = request.clone();
+    Ok(Thresholds { request, local, resumes, runs, in_band, dithered, slip, silent })
+}
+
+/// The largest slip speed that each contact reaches.
+fn largest_slip(
+    study: &SystemStudy,
+    at: &dyn Fn(&[f64]) -> Result<System, String>,
+    request: &ThresholdsRequest,
+    (local, runs): (&Result<MotionThresholds, NoMotionOrbit>, &[(Protocol, RunSwitches)]),
+) -> Vec<f64> {
+    let mut slip = vec![0.0; study.system().contacts.len()];
+    if study.system().contacts.iter().all(|contact| contact.friction.range().is_none()) {
+        return slip;
+    }
+    let row = study.observe();
+    let mut add = |value: f64, state: &dyn Fn(&System) -> Option<Vec<f64>>| {
+        let Ok(system) = at(&[value]) else { return };
+        let Some(state) = state(&system) else { return };
+        let slow =
+            vibration_frequency(&system).map_or(0.0, |frequency| SLOW_PERIODS * TAU / frequency);
+        let length = period(&system).map_or(slow, |period| slow.max(period));
+        let samples = CycleSamples::over(&system, &row, &state, length);
+        for (contact, slip) in slip.iter_mut().enumerate() {
+            *slip = samples.largest_slip(contact).max(*slip);
+        }
+    };
+    if let Ok(local) = local {
+        let ends = [local.branch.first(), local.branch.last()].into_iter().flatten();
+        let ends = ends.map(|point| (point.value, &point.state));
+        let thresholds = local.thresholds.iter().map(|found| (found.value, &found.state));
+        for (value, state) in ends.chain(thresholds) {
+            add(value, &|_| Some(state.clone()));
+        }
+    }
+    let ends = [request.window.0, request.window.1];
+    for (protocol, switches) in runs {
+        let changes = switches.changes.iter().map(|change| change.value);
+        for value in ends.into_iter().chain(changes) {
+            add(value, &|system| protocol.state(study, system).ok());
+        }
+    }
+    slip
+}
+
+/// The changes of a run over a window, with the runs at its values side by side.
+fn side_by_side(run: &VariedRun<'_>, window: (f64, f64)) -> RunSwitches {
+    let values: Vec<f64> = values_tried(window, TRIED).collect();
+    let outcomes: Vec<(f64, RunOutcome)> =
+        values.in_parallel(|value| (*value, run.outcome(*value))).collect();
+    RunSwitches::of(&outcomes, |pairs| pairs.in_parallel(|[a, b]| run.change(*a, *b)).collect())
+}
+
+/// Whether steady sliding without dither is stable.
+fn slides_steadily(system: &System) -> bool {
+    local_verdict(&system.undithered()) == Ok("stable")
+}
+
+/// The reason of a failure.
+fn why_of(why: &Failure) -> String {
+    match why {
+        Failure::Failed { why, .. } => why.clone(),
+        Failure::Wrong(complaints) => complaints
+            .iter()
+            .map(|complaint| complaint.allowed.clone())
+            .collect::<Vec<_>>()
+            .join("; "),
+    }
 }
 
 /// Rejects a time over which a dither cannot be ramped up, or that belongs to no run.
-pub(in crate::run) fn can_ramp(ramp: f64, without_runs: bool) -> Result<(), Complaints> {
+fn can_ramp(ramp: f64, without_runs: bool) -> Result<(), Complaints> {
     let mut wrong: Vec<Complaint> = Vec::new();
     wrong.extend(bearable(ramp, given_number(ramp), "--ramp").err().map(|complaint| *complaint));
     if ramp > 0.0 && without_runs {
@@ -163,237 +275,26 @@ pub(in crate::run) fn can_ramp(ramp: f64, without_runs: bool) -> Result<(), Comp
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
 
-/// Rejects a first value at which the belt is at rest: no steady sliding exists to continue from.
-fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complaint>> {
-    let belt = study.belt();
-    let at_rest = |belt: &quell_model::Belt| belt.belt_velocity() == 0.0;
-    if !named.belt_at(study, named.of(from)).is_some_and(|first| at_rest(&first)) {
-        return Ok(());
-    }
-    let why = "thresholds are computed for the response continued from steady sliding, which a belt at rest does not have; \
-               `orbit`, `response` and `bifurcation` start from rest";
-    let allowed = format!("such that the belt moves: {why}");
-    Err(Box::new(if at_rest(belt) {
-        let allowed = format!("above 0: {why}");
-        Complaint::new(Fault::Value, "belt.belt_velocity", Origin::Whole, 0.0, allowed)
-    } else {
-        Complaint::option("--from", given_number(from), allowed)
-    }))
+/// The verdict on one side of a threshold; "none" if this response does not exist there.
+pub fn side(verdict: Option<OrbitVerdict>) -> &'static str {
+    verdict.map_or("none", OrbitVerdict::name)
 }
 
-/// Thresholds of a study's belt.
+/// Rejects `--near` and `--ramp` where no dither acts.
 ///
 /// # Errors
-/// A complaint about the parameter or its range; [`Failure::Failed`] if no response exists at the beginning.
-pub fn run(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
-    refused_of_belt(study, "thresholds")?;
-    within(STEPS_OF_MANY_SEARCHES, || found(study, question))
-}
-
-fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
-    let (asked, question) = understood(study, question)?;
-    let path = question.parameter.as_str();
-    let (from, to) = (question.from, question.to);
-    let at = |values: &[f64]| asked.belt_at(study, values[0]);
-    let (local, no_base) = match local(&at, from, to, STEPS) {
-        Ok(local) => (local, None),
-        // Runs have an outcome even without a base response.
-        Err(NoThresholds::Start(why))
-            if !question.protocols.is_empty() && (why.is_absence() || is_lost(why)) =>
-        {
-            (Local::nowhere(from), Some(why))
-        }
-        Err(why) => return Err(refused(study, why, path, "--from")),
-    };
-    let last = at(&[to]);
-    let resumes = local.ending != BranchEnding::Covered
-        && last.is_some_and(|belt| {
-            AttractorSettings::new(&belt).is_ok_and(|settings| settings.base.is_ok())
-        });
-    let mut protocols = Vec::new();
-    for &protocol in &question.protocols {
-        let initial = protocol.initial();
-        let start = |belt: &quell_model::Belt| -> Result<Option<Start>, NoOrbit> {
-            let start = match initial.resolve(belt) {
-                Ok(start) => start,
-                Err(NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest) => {
-                    return Ok(None);
-                }
-                Err(NoSquealingStart::Stalled(why)) => return Err(NoOrbit::Stalled(why)),
-            };
-            // Without dither there is nothing to ramp up.
-            match ramped(belt, start, question.ramp) {
-                Err(NoOrbit::NoDither) => Ok(Some(start)),
-                ramped => ramped.map(Some),
-            }
-        };
-        let found = switches(&at, (from, to), TRIED, SWITCH_CLOSENESS, start)
-            .map_err(|why| refused(study, why, path, "--from"))?;
-        protocols.push((protocol, found));
-    }
-    let slip = slip_met(&at, &question, &local, &protocols);
-    let reaches = |value: f64| {
-        at(&[value])
-            .and_then(|belt| StroboscopicSection::of(&belt).ok())
-            .is_some_and(|section| section.reaches_the_band())
-    };
-    let in_band = reaches(from) || reaches(to);
-    Ok(Thresholds { question, asked, local, no_base, resumes, protocols, slip, in_band })
-}
-
-/// Whether the continuation lost the base response, as opposed to its not existing.
-fn is_lost(why: NoOrbit) -> bool {
-    matches!(why, NoOrbit::LostOnTheWay { .. })
-}
-
-/// The slip reached by the responses at the thresholds, by steady sliding at both ends, and by the runs of protocols there and
-/// at their switches.
-fn slip_met(
-    at: BeltAt<'_>,
-    question: &ThresholdsRequest,
-    local: &Local,
-    protocols: &[(Protocol, Switches)],
-) -> SlipMet {
-    let mut slip = SlipMet::default();
-    let at = |value: f64| at(&[value]);
-    for threshold in &local.thresholds {
-        if let Some(belt) = at(threshold.value) {
-            slip.add_attractor(&belt, threshold.state);
-        }
-    }
-    let ends = [question.from, question.to];
-    for belt in ends.into_iter().filter_map(at) {
-        let sliding = InitialState::Sliding.resolve(&belt);
-        if let Ok(sliding) = sliding {
-            slip.add_start(&belt, sliding);
-        }
-    }
-    for (protocol, switches) in protocols {
-        let values = ends.into_iter().chain(switches.changes.iter().map(|change| change.value));
-        for belt in values.filter_map(at) {
-            if let Ok(start) = protocol.initial().resolve(&belt) {
-                slip.add_attractor(&belt, start);
-            }
-        }
-    }
-    slip
-}
-
-/// The outcome of runs beyond a switch. A dither in the band of the vibration itself cannot quench it: runs fall into step with
-/// the dither or not.
-pub fn becomes(reached: Reached, in_band: bool) -> &'static str {
-    match (reached, in_band) {
-        (Reached::Base | Reached::Forced, false) => "quenched",
-        (Reached::Base | Reached::Forced, true) => "in step with the dither",
-        (Reached::Elsewhere, false) => "not quenched",
-        (Reached::Elsewhere, true) => "not in step with the dither",
-        (Reached::Unsettled, _) => "unsettled",
-        (Reached::Unknown, _) => "unknown",
-    }
-}
-
-/// The verdict on one side of a threshold; "none" if this response does not exist there.
-pub fn side(verdict: Option<quell_dynamics::orbit::OrbitVerdict>) -> &'static str {
-    verdict.map_or("none", quell_dynamics::orbit::OrbitVerdict::name)
-}
-
-impl Thresholds {
-    /// As JSON.
-    pub fn json(&self, study: &BeltStudy) -> Json {
-        let question = &self.question;
-        let quantity = quantity_of(study, &question.parameter);
-        let object = || Fields::new(study.scales());
-        let asked = &self.asked;
-        let local = self.local.thresholds.iter().map(|threshold| {
-            let mut inner = object();
-            asked.put(&mut inner, "value", threshold.value);
-            asked.put(&mut inner, "error", threshold.error);
-            inner
-                .plain("kind", threshold.kind.name())
-                .plain("was", side(threshold.was))
-                .plain("becomes", side(threshold.becomes))
-                .number("displacement", Quantity::Displacement, threshold.state.displacement)
-                .number("velocity", Quantity::Velocity, threshold.state.velocity);
-            let length = unit_of(Quantity::Displacement, study.scales());
-            let found = threshold.first_lyapunov.map_err(|why| why.to_string());
-            criticality::put(&mut inner, &length, &found);
-            let unit = unit_of(quantity, study.scales());
-            criticality::put_fold(&mut inner, [&unit, &length], &threshold.fold);
-            inner
-        });
-        let words = |signature: Option<&Signature>| {
-            signature.map_or_else(|| "none".to_owned(), Signature::words)
-        };
-        let changes = self.local.changes.iter().map(|change| {
-            let mut inner = object();
-            asked.put(&mut inner, "value", change.value);
-            inner
-                .plain("below", words(change.below.as_ref()))
-                .plain("above", words(change.above.as_ref()));
-            inner
-        });
-        let mut fields = object();
-        fields
-            .plain("ok", true)
-            .plain("sentence", self.sentence(study))
-            .plain("parameter", asked.key());
-        asked.put(&mut fields, "from", question.from);
-        asked.put(&mut fields, "to", question.to);
-        fields
-            .plain("covered", self.local.ending == BranchEnding::Covered)
-            .plain("resumes", self.resumes)
-            .list("local", local)
-            .list("signature_changes", changes);
-        if question.ramp > 0.0 {
-            fields.number("ramp", Quantity::Time, question.ramp);
-        }
-        let mut first = object();
-        for (protocol, switches) in &self.protocols {
-            first.plain(protocol.name(), becomes(switches.first, self.in_band));
-            let switches = switches.changes.iter().map(|switch| {
-                let mut inner = object();
-                asked.put(&mut inner, "value", switch.value);
-                asked.put(&mut inner, "error", switch.error);
-                inner.plain("becomes", becomes(switch.becomes, self.in_band));
-                inner
-            });
-            fields.list(protocol.name(), switches);
-        }
-        if !self.protocols.is_empty() {
-            fields.nested("at_from", first).plain("values_tried", TRIED + 1);
-        }
-        fields.plain("warnings", self.warnings(study));
-        fields.finish()
-    }
-
-    /// Warnings, among them values at which the outcome of runs is unknown.
-    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
-        let path = self.asked.key();
-        let warning = |(protocol, switches): &(Protocol, Switches)| {
-            let (value, why) = switches.unknown.first()?;
-            let value = self.asked.words(study, *value);
-            let runs = protocol.name().replace('_', " ");
-            let count = switches.unknown.len();
-            let others = if count > 1 {
-                format!("; it is also unknown at {} more value{}", count - 1, plural(count - 1))
-            } else {
-                String::new()
-            };
-            Some(format!(
-                "the outcome of the run {runs} at {path} = {value} is unknown: {why}{others}"
-            ))
-        };
-        let in_band = (self.in_band && !self.protocols.is_empty()).then(|| {
-            format!(
-                "the dither acts at or below {BAND_END} ω₀, in the band of the vibration itself: a run in step with it \
-                 still vibrates; `response` gives the remaining amplitude"
-            )
-        });
-        self.slip
-            .warnings(study)
-            .into_iter()
-            .chain(in_band)
-            .chain(self.protocols.iter().filter_map(warning))
-            .collect()
-    }
+/// A complaint about each option that is about dithered motions.
+fn without_dither(request: &ThresholdsRequest) -> Result<(), Failure> {
+    let near = request.near.as_ref().map(|_| "--near");
+    let ramp = (request.ramp != 0.0).then_some("--ramp");
+    let wrong: Vec<Complaint> = near
+        .into_iter()
+        .chain(ramp)
+        .map(|option| {
+            let allowed = "left out: without dither the thresholds are those of steady sliding and of runs that are not ramped up; \
+                           `bifurcation` follows limit cycles over a parameter";
+            Complaint::new(Fault::Conflict, option, Origin::Argument(option), Json::Null, allowed)
+        })
+        .collect();
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }

@@ -20,7 +20,7 @@ use super::validity::ContactRanges;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_system;
-use crate::run::varied::OF_THE_EQUATIONS;
+use crate::run::varied::{OF_THE_EQUATIONS, kind_of_document, not_a_peak, number_meant};
 use crate::study::{Model, ParameterId, SystemStudy};
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -289,9 +289,13 @@ pub(in crate::run) fn understood(
         if study.number(path).is_none() {
             let contact = study.system().contacts.first().map_or("NAME", |contact| &contact.name);
             let example = study.path_of(contact, NORMAL_LOAD);
-            let allowed = format!("the path of a number of the study, such as {example}");
+            let allowed = match not_a_peak(path, kind_of_document(study)) {
+                Some(why) => format!("the path of a peak value: {why}"),
+                None => format!("the path of a number of the study, such as {example}"),
+            };
             let complaint = Complaint::option(option, path.as_str(), allowed);
-            wrong.push(complaint.suggesting(nearest(study, path)));
+            let near = nearest(study, path).or_else(|| number_meant(study, path));
+            wrong.push(complaint.suggesting(near));
             continue;
         }
         if window.0.is_nan() || window.1.is_nan() || window.0 >= window.1 {

@@ -1,37 +1,105 @@
-//! `thresholds --along` of a dithered system: curves of the thresholds of its base response in two parameters, and the boundaries
-//! of averaging.
+//! `thresholds --along`: curves of the thresholds of a base response in two parameters, and the boundaries of averaging.
 
 use quell_dynamics::motion::orbit::{
-    MotionCurve, MotionCurves, MotionPlane, NoMotionOrbit, motion_curves,
+    CurvesFound, MotionPlane, OpenLine, ThresholdCurve, ThresholdCurveEnd, motion_curves,
 };
-use quell_dynamics::orbit::curve::{OpenLine, ThresholdCurveEnd};
-use quell_linear::averaging::{Becomes, DitheredSystem};
+use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_linear::averaging::{AveragingOptions, Becomes, DitheredSystem, critical_amplitudes};
 use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::start::{state_names, state_quantity};
-use super::tracked::{TrackRequest, understood};
-use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
+use crate::document::given_number;
 use crate::fields::Fields;
 use crate::run::criticality;
-use crate::run::curves::{AveragedBoundary, CurvesRequest, LINES, POINTS, why_it_ends};
-use crate::run::thresholds::ThresholdKind;
+use crate::run::system::start::{state_names, state_quantity};
+use crate::run::system::tracked::{TrackRequest, understood};
+use crate::run::system::{failed, has_equations};
 use crate::study::SystemStudy;
 use crate::words::{digits, plural};
 
-/// Intervals of the second parameter between evaluations of averaging.
-const AVERAGED: u32 = 60;
+/// Lines across the second parameter on which the search for curves starts.
+pub(super) const LINES: u32 = 5;
 
-/// Curves of thresholds of a dithered system.
+/// Minimum number of points of a curve across a window.
+pub(super) const POINTS: u32 = 100;
+
+/// Intervals of the second parameter between evaluations of averaging.
+const AVERAGED: u32 = 120;
+
+/// Options of threshold curves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CurvesRequest {
+    /// Path of the parameter whose thresholds are followed.
+    pub parameter: String,
+    /// Its window, first and last value in the unit of that key.
+    pub window: (f64, f64),
+    /// Path of the parameter along which they are followed, likewise.
+    pub along: String,
+    /// Its window, likewise.
+    pub between: (f64, f64),
+}
+
+/// A boundary of averaging in the same plane: (second parameter, amplitude), both in the units of their keys.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AveragedBoundary {
+    /// Whether this is averaging in the limit R → ∞, instead of finite-R averaging, which has the structure's own fast motion.
+    pub limit: bool,
+    /// Points; a boundary is broken where it does not exist.
+    pub pieces: Vec<Vec<(f64, f64)>>,
+}
+
+impl AveragedBoundary {
+    /// The critical amplitudes over a window of the second parameter at `steps` intervals, one boundary after another: those
+    /// towards stability and towards instability are separate curves.
+    pub(super) fn along(
+        limit: bool,
+        (first, last): (f64, f64),
+        steps: u32,
+        boundaries: &[&dyn Fn(f64) -> Option<f64>],
+    ) -> Self {
+        let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+        for amplitude in boundaries {
+            let mut piece = Vec::new();
+            for k in 0..=steps {
+                let along = first + (last - first) * f64::from(k) / f64::from(steps);
+                match amplitude(along) {
+                    Some(amplitude) => piece.push((along, amplitude)),
+                    None if piece.is_empty() => {}
+                    None => pieces.push(std::mem::take(&mut piece)),
+                }
+            }
+            if !piece.is_empty() {
+                pieces.push(piece);
+            }
+        }
+        Self { limit, pieces }
+    }
+}
+
+/// Why a curve ends inside its windows, in words; `None` if it does not.
+pub(super) fn why_it_ends(end: ThresholdCurveEnd) -> Option<&'static str> {
+    match end {
+        ThresholdCurveEnd::Window | ThresholdCurveEnd::Closed => None,
+        ThresholdCurveEnd::Grazing => Some("beyond it the response grazes or changes its events"),
+        ThresholdCurveEnd::Resonance => {
+            Some("its pair of multipliers becomes real (a resonance 1 : 1 or 1 : 2)")
+        }
+        ThresholdCurveEnd::SameVerdict => Some("beyond it the grazing changes no verdict"),
+        ThresholdCurveEnd::Crossing => Some("another threshold crosses it, and comes first beyond"),
+        ThresholdCurveEnd::Lost => Some("it was lost"),
+    }
+}
+
+/// Curves of thresholds.
 #[derive(Clone, Debug)]
-pub struct SystemCurves {
+pub struct Curves {
     /// The request, in the numbers of the study.
     pub request: CurvesRequest,
     /// The curves, and lines across the second parameter on which curves may be missing.
-    pub found: MotionCurves,
+    pub found: CurvesFound,
     /// Boundaries of averaging, if the first parameter is the amplitude of the first dither.
     pub averaged: Vec<AveragedBoundary>,
 }
@@ -60,7 +128,7 @@ pub fn is_dithered_in(study: &SystemStudy, request: &CurvesRequest) -> bool {
 ///
 /// # Errors
 /// Complaints about the request; [`Failure::Failed`] if no line has a base response to start from.
-pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<SystemCurves, Failure> {
+pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<Curves, Failure> {
     has_equations(study, "thresholds")?;
     understood(study, &tracked(request))?;
     let (parameter, along) = (request.parameter.as_str(), request.along.as_str());
@@ -86,7 +154,7 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<SystemCurves,
         at(&values).map_err(|why| {
             let path = if is_first { parameter } else { along };
             let allowed = format!("a value that {path} can take: {why}");
-            Complaint::option(option, value, allowed)
+            Complaint::option(option, given_number(value), allowed)
         })?;
     }
     let (window, between) = (request.window, request.between);
@@ -94,7 +162,7 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<SystemCurves,
     let found = motion_curves(&plane, LINES)
         .map_err(|line| failed("thresholds", line_in_words(study, request, &line)))?;
     let averaged = averaged(study, request, &at);
-    Ok(SystemCurves { request: request.clone(), found, averaged })
+    Ok(Curves { request: request.clone(), found, averaged })
 }
 
 /// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither.
@@ -119,7 +187,23 @@ fn averaged(
     let [stable, unstable] = [boundary(Becomes::Stable), boundary(Becomes::Unstable)];
     // Averaging of systems has the fast motion of the structure itself.
     let found = AveragedBoundary::along(false, request.between, AVERAGED, &[&stable, &unstable]);
-    vec![found]
+    // That in the limit R → ∞ is known of one mass.
+    let limit = |becomes: Becomes| {
+        move |along: f64| {
+            let system = at(&[most, along]).ok()?;
+            let mass = system.one_mass()?;
+            let found = critical_amplitudes(mass.belt(), AveragingOptions::LIMIT).ok()?;
+            let first = found.iter().find(|critical| critical.becomes == becomes)?;
+            let own = mass.belt().dithers().first()?.amplitude;
+            let amplitude = first.amplitude * most / own;
+            Some(amplitude).filter(|amplitude| (least..=most).contains(amplitude))
+        }
+    };
+    let [stable, unstable] = [limit(Becomes::Stable), limit(Becomes::Unstable)];
+    let in_the_limit =
+        AveragedBoundary::along(true, request.between, AVERAGED, &[&stable, &unstable]);
+    let is_empty = in_the_limit.pieces.is_empty();
+    (!is_empty).then_some(in_the_limit).into_iter().chain([found]).collect()
 }
 
 /// The contacts of a study by their indices.
@@ -157,24 +241,20 @@ fn with_unit(study: &SystemStudy, path: &str, value: f64) -> String {
     format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
 }
 
-fn line_in_words(
-    study: &SystemStudy,
-    request: &CurvesRequest,
-    line: &OpenLine<NoMotionOrbit>,
-) -> String {
+fn line_in_words(study: &SystemStudy, request: &CurvesRequest, line: &OpenLine) -> String {
     let place = with_unit(study, &request.along, line.along);
     let why = line.why.words(|value| with_unit(study, &request.parameter, value));
     format!("on the line {} = {place}: {why}", request.along)
 }
 
-impl SystemCurves {
+impl Curves {
     /// Total number of points.
     pub fn points(&self) -> usize {
         self.found.curves.iter().map(|curve| curve.points.len()).sum()
     }
 
     /// The kind of a curve in words, with its contact if there are several.
-    pub fn kind(&self, study: &SystemStudy, curve: &MotionCurve) -> String {
+    pub fn kind(&self, study: &SystemStudy, curve: &ThresholdCurve) -> String {
         kind_in_words(study, curve.kind, &curve.contacts)
     }
 
