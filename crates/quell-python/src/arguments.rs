@@ -36,17 +36,6 @@ impl GivenState {
     }
 }
 
-/// Two quantities as dimensionless numbers of the equations.
-pub(crate) fn both(
-    (first, second): &Pair,
-    quantity: Quantity,
-    scales: Option<Scales>,
-    option: &'static str,
-) -> Result<(f64, f64), Failure> {
-    let read = |text: &str| quantity::parse(text, quantity, scales, option);
-    Ok((read(first)?, read(second)?))
-}
-
 /// A state: displacement and velocity as dimensionless numbers of the equations.
 pub(crate) fn state(
     (x, v): &Pair,

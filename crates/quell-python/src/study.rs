@@ -6,17 +6,17 @@ use std::sync::Arc;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use quell::document::{Node, Table};
-use quell::run::basins::{BasinsRequest, StartLayout};
+use quell::run::basins::StartLayout;
 use quell::run::bifurcation::SweepRequest;
 use quell::run::moment::at_time;
 use quell::run::varied::Range;
 use quell::study::Files;
 use quell::{Change, Complaints, Failure, Study};
-use quell_model::units::Quantity;
 
 use crate::answer::NativeAnswer;
-use crate::arguments::{GivenState, Pair, both, ends};
+use crate::arguments::{GivenState, Pair, ends};
 use crate::verbs::attractor::TimeTexts;
+use crate::verbs::basins::GivenPlane;
 use crate::verbs::compare::RecordTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
@@ -432,45 +432,13 @@ impl NativeStudy {
         bifurcation::run(py, self.study(), request, progress)
     }
 
-    /// `window`: displacements and velocities; `layout`: a grid, or instead a number of random states and a seed; `over`: a
-    /// parameter with the ends of its range and the number of values.
-    #[pyo3(signature = (window, layout, over, threads, progress))]
+    /// `plane`: two names of the state with their windows, or windows of the first displacement and its velocity; `layout`: a grid, or
+    /// instead a number of random states and a seed; `over`: a parameter with the ends of its range and the number of values.
+    #[pyo3(signature = (plane, layout, over, threads, progress))]
     fn basins(
         &self,
         py: Python<'_>,
-        window: (Option<Pair>, Option<Pair>),
-        layout: ((usize, usize), Option<(usize, u64)>),
-        over: Option<(String, Pair, usize)>,
-        threads: Option<usize>,
-        progress: Option<Py<PyAny>>,
-    ) -> PyResult<NativeAnswer> {
-        let study = self.study();
-        let (displacement, velocity, over) = call::here(py, move || {
-            let scales = study.scales();
-            let (displacement, velocity) = window;
-            let read = |pair: Option<Pair>, quantity, option| {
-                pair.map(|pair| both(&pair, quantity, scales, option)).transpose()
-            };
-            Ok((
-                read(displacement, Quantity::Displacement, "--displacement")?,
-                read(velocity, Quantity::Velocity, "--velocity")?,
-                range_over(&study, over)?,
-            ))
-        })?;
-        let layout = match layout {
-            (_, Some((count, seed))) => StartLayout::Sample { count, seed },
-            ((columns, rows), None) => StartLayout::Grid { columns, rows },
-        };
-        let request = BasinsRequest { displacement, velocity, layout, over };
-        basins::run(py, self.study(), request, threads, progress)
-    }
-
-    /// Of a system: `plane` names two numbers of its state; `layout` and `over` as in `basins`.
-    #[pyo3(signature = (plane, layout, over, threads, progress))]
-    fn basins_in_plane(
-        &self,
-        py: Python<'_>,
-        plane: String,
+        plane: GivenPlane,
         layout: GivenLayout,
         over: Option<(String, Pair, usize)>,
         threads: Option<usize>,
@@ -479,11 +447,11 @@ impl NativeStudy {
         let study = self.study();
         let over = call::here(py, move || range_over(&study, over))?;
         let layout = match layout {
-            (_, Some((count, seed))) => StartLayout::Sample { count, seed },
-            (Some((columns, rows)), None) => StartLayout::Grid { columns, rows },
-            (None, None) => StartLayout::default(),
+            (_, Some((count, seed))) => Some(StartLayout::Sample { count, seed }),
+            (Some((columns, rows)), None) => Some(StartLayout::Grid { columns, rows }),
+            (None, None) => None,
         };
-        basins::run_in_plane(py, self.study(), (plane, layout, over), threads, progress)
+        basins::run(py, self.study(), plane, (layout, over), threads, progress)
     }
 
     /// `exact`: whether the thresholds are also computed by continuation.

@@ -20,9 +20,6 @@ use crate::words::in_words;
 /// Time for which a start is observed: its first slow period, in which a decaying transient is largest.
 const OF_START: f64 = TAU;
 
-/// Time for which an attractor is observed.
-const OF_ATTRACTOR: f64 = 4.0 * TAU;
-
 /// Warnings about contacts of a system whose slip leaves the range of their law; `dithered` has their fast motion.
 pub(crate) fn outside_of_laws(
     system: &System,
@@ -75,11 +72,6 @@ impl SlipMet {
     /// Adds a run from a start over its first slow period.
     pub(crate) fn add_start(&mut self, belt: &Belt, start: Start) {
         self.add_run(belt, start, OF_START);
-    }
-
-    /// Adds a run on an attractor over a few slow periods, from a state on it.
-    pub(crate) fn add_attractor(&mut self, belt: &Belt, state: Start) {
-        self.add_run(belt, state, OF_ATTRACTOR);
     }
 
     /// Adds a run of duration `length` from a state. A run that stops counts up to there.

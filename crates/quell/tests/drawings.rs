@@ -174,9 +174,10 @@ fn an_orbit_closes_and_its_multipliers_are_drawn() {
 fn portraits(study: &BeltStudy, layout: StartLayout, over: Option<Range>) -> (Json, Figure) {
     let never = AtomicBool::new(false);
     let running = Running { threads: Some(2), stop: &never, progress: &() };
-    let question = basins::BasinsRequest { displacement: None, velocity: None, layout, over };
-    let done = basins::run(study, &question, running).expect("basins");
-    (done.json(study), draw_basins(study, &done).expect("a picture"))
+    let question = basins::BasinsRequest { axes: None, layout: Some(layout), over };
+    let study = system_of(&study.into(), "basins").expect("a system");
+    let done = basins::run(&study, &question, running).expect("basins");
+    (done.json(&study), draw_basins(&study, &done).expect("a picture"))
 }
 
 #[test]

@@ -320,12 +320,10 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     let found = verbs(&(&inside).into()).bifurcation(&question, running).expect("a sweep");
     warns(&found.json());
     let question = basins::BasinsRequest {
-        displacement: None,
-        velocity: None,
-        layout: basins::StartLayout::Grid { columns: 2, rows: 2 },
-        over: None,
+        layout: Some(basins::StartLayout::Grid { columns: 2, rows: 2 }),
+        ..basins::BasinsRequest::default()
     };
-    warns(&basins::run(&outside, &question, running).expect("basins").json(&outside));
+    warns(&verbs(&(&outside).into()).basins(&question, running).expect("basins").json());
     // A map point has its value, and a status that reports the range.
     let axes = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.5, 3.0]\n";
     let swept = study(&format!("{CUBIC}{axes}"));

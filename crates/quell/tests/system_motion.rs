@@ -6,11 +6,10 @@ use std::sync::atomic::AtomicBool;
 
 use quell::Study;
 use quell::kind::verbs;
-use quell::run::basins::StartLayout;
+use quell::run::basins::{BasinsRequest, StartLayout, read_plane};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::orbit::Wanted;
 use quell::run::protocol::{Protocol, read_state_of};
-use quell::run::system::basins::{PlaneRequest, read_plane};
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::varied::Range;
 use quell::sweep::Running;
@@ -262,8 +261,8 @@ fn basins(text: &str, plane: &str, grid: (usize, usize)) -> Json {
     let stop = AtomicBool::new(false);
     let running = Running { threads: Some(2), stop: &stop, progress: &() };
     let layout = StartLayout::Grid { columns: grid.0, rows: grid.1 };
-    let request = PlaneRequest::of(axes, layout, None);
-    let found = verbs(&study).basins_of_system(&request, running);
+    let request = BasinsRequest { axes: Some(axes), layout: Some(layout), over: None };
+    let found = verbs(&study).basins(&request, running);
     found.unwrap_or_else(|why| panic!("{why:?}")).json()
 }
 

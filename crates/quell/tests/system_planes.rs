@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
-use quell::kind::verbs;
-use quell::run::basins::{BasinsRequest, StartLayout};
+use quell::kind::{system_of, verbs};
+use quell::run::basins::{BasinsRequest, StartLayout, default_plane};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
@@ -113,7 +113,7 @@ fn a_belt_as_a_system_has_the_same_curves() {
     // The thresholds at v = 1 are those of the reference.
     let sacker = list(&other["curves"]).iter().find(|curve| curve["kind"] == "neimark-sacker");
     assert!((at(sacker.expect("a curve"), 1.0).expect("a value") - 4.322_392_624).abs() < 1e-5);
-    assert!(list(&other["averaged"]).len() == 1, "{}", other["averaged"]);
+    assert!(list(&other["averaged"]).len() == 2, "{}", other["averaged"]);
 }
 
 /// Two uncoupled oscillators on belts of their own, under one dither.
@@ -213,8 +213,10 @@ fn shares_of_random_starts_are_those_of_the_belt() {
             to: 0.25,
             points: 3,
         });
-        let (displacement, velocity) = (Some((-0.3, 0.9)), Some((-0.3, 0.3)));
-        let request = BasinsRequest { displacement, velocity, layout, over };
+        let system = system_of(study, "basins").expect("a system");
+        let axes = default_plane(&system, [Some((-0.3, 0.9)), Some((-0.3, 0.3))]);
+        let axes = Some(axes.expect("a plane"));
+        let request = BasinsRequest { axes, layout: Some(layout), over };
         let found = verbs(study).basins(&request, running(&stop));
         let found = found.unwrap_or_else(|why| panic!("{why:?}")).json();
         println!("{}", found["sentence"]);

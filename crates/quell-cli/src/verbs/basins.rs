@@ -1,17 +1,16 @@
 //! `quell basins`: which starts converge to which response.
 
 use clap::Args;
-use quell::kind::verbs;
-use quell::run::basins::{BasinsRequest, StartLayout};
-use quell::run::system::basins::{PlaneRequest, read_plane};
+use quell::kind::{system_of, verbs};
+use quell::run::basins::{BasinsRequest, PlaneAxis, StartLayout, default_plane, read_plane};
 use quell::run::varied::Range;
 use quell::study::SystemStudy;
 use quell::sweep::Running;
-use quell::{Complaint, Failure, Fault, Origin, Study};
+use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 use quell_model::units::Quantity;
 
 use super::map::threads;
-use super::numbers::{count, number, range, scales};
+use super::numbers::{ascending, count, number};
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 use crate::interrupt;
@@ -22,17 +21,17 @@ use crate::progress::Bar;
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Displacements x of the window, SI in a study in SI [default: around steady sliding]
+    /// Range of the first displacement, such as -1:1 or with units -1mm:1mm [default: around steady sliding]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     displacement: Option<String>,
-    /// Velocities x′ of the window, SI in a study in SI [default: around 0]
+    /// Range of its velocity [default: around 0]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     velocity: Option<String>,
-    /// System: the two numbers of the state that are varied, such as x,velocity.x or x=-1:1,velocity.x=-2:2 with their windows;
+    /// The two numbers of the state that are varied, such as x,velocity.x or x=-1:1,velocity.x=-2:2 with their windows;
     /// the others are those of the study's start [default: the first displacement and its velocity]
     #[arg(long, value_name = "NAME,NAME", conflicts_with_all = ["displacement", "velocity"], allow_hyphen_values = true)]
     plane: Option<String>,
-    /// Numbers of displacements and velocities of the grid, edges included [default: 41x31; of a system 21x15]
+    /// Numbers of values of the first and the second number of the grid, edges included [default: 41x31; of several masses 21x15]
     #[arg(long, value_name = "NxM", conflicts_with = "sample")]
     grid: Option<String>,
     /// Number of random states instead of a grid
@@ -73,70 +72,42 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    if let (Some(Ok(system)), Some(text)) = (study.as_ref().map(Study::system), &arguments.plane) {
-        return run_in_plane(arguments, &system, text, complaints);
-    }
-    // Of a study that cannot be read the kind is unknown.
-    if let (Some(_), Some(text)) = (&study, &arguments.plane) {
-        let allowed = "left out: the plane of a belt is that of displacement and velocity";
-        complaints.take::<()>(Err(Complaint::option("--plane", text.as_str(), allowed)));
-    }
-    let request = request(arguments, study.as_ref(), &mut complaints);
+    let system = study.as_ref().map(|study| system_of(study, "basins"));
+    let axes = match complaints.take(system.transpose()) {
+        Some(Some(system)) => arguments.axes(&system, &mut complaints),
+        _ => None,
+    };
+    let layout = complaints.take(layout(arguments));
+    let over = over(arguments, study.as_ref(), &mut complaints);
     let threads = complaints.take(threads(arguments.threads.as_deref()));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((study, request), (threads, (outputs, plot))) =
+    let request = axes.zip(layout).zip(over);
+    let ((study, ((axes, layout), over)), (threads, (outputs, plot))) =
         complaints.finish(study.zip(request).zip(threads.zip(outputs.zip(plot))))?;
+    let request = BasinsRequest { axes: Some(axes), layout, over: over.0 };
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = verbs(&study).basins(&request, running)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 
-/// Runs the verb on a system in a given plane.
-fn run_in_plane(
-    arguments: &Arguments,
-    system: &SystemStudy,
-    plane: &str,
-    mut complaints: Gathered,
-) -> Result<Answer, Failure> {
-    let study: Study = system.into();
-    let inputs = inputs(Some(&study));
-    let axes = complaints.take(read_plane(system, plane));
-    let layout = complaints.take(layout(arguments));
-    let over = over(arguments, Some(&study), &mut complaints);
-    let threads = complaints.take(threads(arguments.threads.as_deref()));
-    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
-    let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((axes, (layout, over)), (threads, (outputs, plot))) =
-        complaints.finish(axes.zip(layout.zip(over)).zip(threads.zip(outputs.zip(plot))))?;
-    let request = PlaneRequest::of(axes, layout, over.0);
-    let bar = Bar::new();
-    let running = Running { threads, stop: interrupt::flag(), progress: &bar };
-    let done = verbs(&study).basins_of_system(&request, running)?;
-    answer(arguments.study.json, done.as_ref(), outputs, plot)
-}
-
-fn request(
-    arguments: &Arguments,
-    study: Option<&Study>,
-    complaints: &mut Gathered,
-) -> Option<BasinsRequest> {
-    let scales = scales(study);
-    let mut window = |option, text: &Option<String>, quantity| {
-        let found = text.as_deref().map(|text| range(option, text, quantity, scales));
-        complaints.take(found.transpose())
-    };
-    let displacement = window("--displacement", &arguments.displacement, Quantity::Displacement);
-    let velocity = window("--velocity", &arguments.velocity, Quantity::Velocity);
-    let layout = complaints.take(layout(arguments));
-    let over = over(arguments, study, complaints);
-    Some(BasinsRequest {
-        displacement: displacement?,
-        velocity: velocity?,
-        layout: layout?,
-        over: over?.0,
-    })
+impl Arguments {
+    /// The plane of starts.
+    fn axes(&self, system: &SystemStudy, complaints: &mut Gathered) -> Option<[PlaneAxis; 2]> {
+        if let Some(text) = &self.plane {
+            return complaints.take(read_plane(system, text));
+        }
+        let mut window = |option, text: &Option<String>, quantity| {
+            let read =
+                |text: &str| quantity::of_system(text, Some(quantity), system.units(), option);
+            let found = text.as_deref().map(|text| ascending(option, text, read));
+            complaints.take(found.transpose())
+        };
+        let across = window("--displacement", &self.displacement, Quantity::Displacement);
+        let up = window("--velocity", &self.velocity, Quantity::Velocity);
+        complaints.take(default_plane(system, [across?, up?]))
+    }
 }
 
 /// The parameter of --over and its values, if it is given.
@@ -155,15 +126,17 @@ fn over(arguments: &Arguments, study: Option<&Study>, complaints: &mut Gathered)
     Some(Over(Some(Range { parameter: parameter.clone(), from, to, points })))
 }
 
-fn layout(arguments: &Arguments) -> Result<StartLayout, Box<Complaint>> {
+fn layout(arguments: &Arguments) -> Result<Option<StartLayout>, Box<Complaint>> {
     if let Some(text) = &arguments.sample {
-        return Ok(StartLayout::Sample { count: count("--sample", text)?, seed: arguments.seed });
+        let count = count("--sample", text)?;
+        return Ok(Some(StartLayout::Sample { count, seed: arguments.seed }));
     }
-    let Some(text) = &arguments.grid else { return Ok(StartLayout::default()) };
+    let Some(text) = &arguments.grid else { return Ok(None) };
     let sides = text.split_once(['x', 'X', '×']).and_then(|(columns, rows)| {
         Some((columns.trim().parse().ok()?, rows.trim().parse().ok()?))
     });
-    sides.map(|(columns, rows)| StartLayout::Grid { columns, rows }).ok_or_else(|| {
+    let grid = sides.map(|(columns, rows)| Some(StartLayout::Grid { columns, rows }));
+    grid.ok_or_else(|| {
         let allowed = "NxM, the numbers of displacements and of velocities, such as 41x31";
         let origin = Origin::Argument("--grid");
         Box::new(Complaint::new(Fault::Value, "--grid", origin, text.as_str(), allowed))

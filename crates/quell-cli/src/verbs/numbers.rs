@@ -79,14 +79,12 @@ pub(crate) fn count(option: &'static str, text: &str) -> Result<usize, Box<Compl
         .map_err(|_| Box::new(Complaint::option(option, text, "a whole number, such as 101")))
 }
 
-/// `FROM:TO`, two quantities, the first below the second.
-pub(crate) fn range(
+/// `FROM:TO`, two quantities parsed by `read`, the first below the second.
+pub(crate) fn ascending(
     option: &'static str,
     text: &str,
-    quantity: Quantity,
-    scales: Option<Scales>,
+    read: impl Fn(&str) -> Result<f64, Box<Complaint>>,
 ) -> Result<(f64, f64), Box<Complaint>> {
-    let read = |text: &str| quantity::parse(text, quantity, scales, option);
     let (from, to) = pair(option, text, read)?;
     if from < to {
         return Ok((from, to));

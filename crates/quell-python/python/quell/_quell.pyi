@@ -80,14 +80,6 @@ class NativeStudy:
         start: tuple[str, str] | list[tuple[str, str]] | None,
         times: tuple[str | None, str | None] | None,
     ) -> NativeAnswer: ...
-    def basins_in_plane(
-        self,
-        plane: str,
-        layout: tuple[tuple[int, int] | None, tuple[int, int] | None],
-        over: tuple[str, tuple[str, str], int] | None,
-        threads: int | None,
-        progress: Callable[[int, int], object] | None,
-    ) -> NativeAnswer: ...
     def thresholds(
         self,
         parameter: str,
@@ -108,8 +100,8 @@ class NativeStudy:
     ) -> NativeAnswer: ...
     def basins(
         self,
-        window: tuple[tuple[str, str] | None, tuple[str, str] | None],
-        layout: tuple[tuple[int, int], tuple[int, int] | None],
+        plane: tuple[str | None, tuple[tuple[str, str] | None, tuple[str, str] | None]],
+        layout: tuple[tuple[int, int] | None, tuple[int, int] | None],
         over: tuple[str, tuple[str, str], int] | None,
         threads: int | None,
         progress: Callable[[int, int], object] | None,

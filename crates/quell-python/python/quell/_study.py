@@ -677,12 +677,13 @@ class Study(CheckedStudy):
         Parameters
         ----------
         displacement, velocity :
-            Ranges of x and x′, in m and m/s or as texts with units in a study in SI [default: around steady sliding].
+            Ranges of the first displacement and its velocity, in the units of the study or as texts with units [default: around steady
+            sliding].
         plane :
-            System: the two numbers of the state that are varied, such as ``"x,velocity.x"``, or with their windows
+            The two numbers of the state that are varied, such as ``"x,velocity.x"``, or with their windows
             ``"x=-1:1,velocity.x=-2:2"`` [default: the first displacement and its velocity].
         grid :
-            Number of displacements and velocities, including the edges [default: (41, 31); of a system (21, 15)].
+            Number of values of both numbers, including the edges [default: (41, 31); of several masses (21, 15)].
         sample, seed :
             Number of random states instead of a grid, and the seed of the generator [default: 1].
         over, from_, to, points :
@@ -720,16 +721,13 @@ class Study(CheckedStudy):
         workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
         arguments.done()
         drawn = None if states is None else (states, which)
-        if plane is not None:
-            if displacement is not None or velocity is not None:
-                allowed = "given without displacement and velocity: windows are in the plane, such as x=-1:1"
-                raise StudyError([complaint("plane", plane, allowed, "conflict")])
-            text = arguments.text("plane", plane, "two names, such as x,velocity.x")
-            arguments.done()
-            size = None if grid is None else (sides[0], sides[1])
-            native = self._native.basins_in_plane(text, (size, drawn), along, workers, progress)
-            return results.Basins._of(self, native)
-        native = self._native.basins(window, ((sides[0], sides[1]), drawn), along, workers, progress)
+        text = None if plane is None else arguments.text("plane", plane, "two names, such as x,velocity.x")
+        if plane is not None and (displacement is not None or velocity is not None):
+            allowed = "given without displacement and velocity: windows are in the plane, such as x=-1:1"
+            arguments.wrong.append(complaint("plane", plane, allowed, "conflict"))
+        arguments.done()
+        size = None if grid is None else (sides[0], sides[1])
+        native = self._native.basins((text, window), (size, drawn), along, workers, progress)
         return results.Basins._of(self, native)
 
     @keywords

@@ -12,7 +12,7 @@ use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
     actuator, atlas, basins, belt_system, bifurcation, describing, design, friction,
-    noise_response, orbit, probability, ramp, response, simulate, stability, waveforms, window,
+    noise_response, orbit, probability, response, simulate, stability, waveforms, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -95,10 +95,7 @@ impl Verbs for BeltStudy {
     }
 
     fn ramp(&self) -> Reply {
-        if let Some(system) = belt_system::of_state(self, "bifurcation --ramp")? {
-            return system.ramp();
-        }
-        answer(self, ramp::of_belt(self))
+        belt_system::of(self, "bifurcation --ramp")?.ramp()
     }
 
     fn attractor(&self, request: &AttractorRequest) -> Reply {
@@ -142,9 +139,6 @@ impl Verbs for BeltStudy {
     }
 
     fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {
-        if let Some(system) = belt_system::of_state(self, "basins")? {
-            return system.basins(&belt_system::basins(self, request), running);
-        }
-        answer(self, basins::run(self, request, running))
+        belt_system::of(self, "basins")?.basins(request, running)
     }
 }

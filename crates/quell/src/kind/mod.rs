@@ -13,7 +13,6 @@ use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
 use crate::run::recorded_motion::ObservedMotion;
-use crate::run::system::basins::PlaneRequest;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
@@ -155,7 +154,7 @@ pub trait Verbs: Send + Sync {
     /// One run in which a drive, a load or an amplitude changes slowly, compared with the exact thresholds.
     ///
     /// # Errors
-    /// A kind without this verb; as [`crate::run::ramp::of_belt`].
+    /// A kind without this verb; as [`crate::run::ramp::run`].
     fn ramp(&self) -> Reply {
         Err(self.lacks("bifurcation --ramp"))
     }
@@ -221,15 +220,6 @@ pub trait Verbs: Send + Sync {
     fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {
         let _ = (request, running);
         Err(self.lacks("basins"))
-    }
-
-    /// The motion on which each start in a plane of a system's state ends.
-    ///
-    /// # Errors
-    /// A kind without this verb; as [`crate::run::system::basins::run`].
-    fn basins_of_system(&self, request: &PlaneRequest, running: Running<'_>) -> Reply {
-        let _ = (request, running);
-        Err(self.lacks("basins --plane"))
     }
 
     /// The least dither of each waveform that quenches, and its cost.

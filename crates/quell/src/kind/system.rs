@@ -7,19 +7,18 @@ use crate::cite::{self, Sources};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
-use crate::run::basins::BasinsRequest;
+use crate::run::basins::{self, BasinsRequest};
 use crate::run::bifurcation::SweepRequest;
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::recorded_motion::ObservedMotion;
 use crate::run::simulate::Options;
-use crate::run::system::basins::{PlaneRequest, default_plane};
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    actuator, basins, design, exact, friction, measured, modes, reach, response, simulate,
-    stability, tracked, waveforms,
+    actuator, design, exact, friction, measured, modes, reach, response, simulate, stability,
+    tracked, waveforms,
 };
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
@@ -187,14 +186,10 @@ impl Verbs for SystemStudy {
     }
 
     fn ramp(&self) -> Reply {
-        answer(self, ramp::of_system(self))
+        answer(self, ramp::run(self))
     }
 
     fn basins(&self, request: &BasinsRequest, running: Running<'_>) -> Reply {
-        self.basins_of_system(&default_plane(self, request)?, running)
-    }
-
-    fn basins_of_system(&self, request: &PlaneRequest, running: Running<'_>) -> Reply {
         answer(self, basins::run(self, request, running))
     }
 

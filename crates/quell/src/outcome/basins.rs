@@ -1,4 +1,4 @@
-//! `basins`: the response on which each start ends.
+//! `basins`: the motion on which each start ends.
 
 use std::fmt::Write as _;
 
@@ -6,86 +6,83 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::{figure, figure_of};
+use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::attractor::words;
-use crate::run::basins::{Basins, Portrait, quiescence};
-use crate::study::{BeltSetup, BeltStudy};
+use crate::run::basins::{Basins, Portrait, Share, quiescence};
+use crate::run::system::in_units;
+use crate::study::{SystemSetup, SystemStudy};
 
-impl Presented<BeltSetup> for Basins {
+impl Presented<SystemSetup> for Basins {
     const TITLED: bool = true;
 
-    fn json(&self, study: &BeltStudy) -> Json {
+    fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }
 
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
         Some(self.sentence(study))
     }
 
-    fn table(&self, study: &BeltStudy) -> String {
-        table(study, self)
+    fn table(&self, study: &SystemStudy) -> String {
+        let mut text = format!("  {}\n", self.starts_in_words(study));
+        match (&self.over, self.portraits.as_slice()) {
+            (None, [portrait]) => text += &motions(study, portrait),
+            (over, portraits) => {
+                let path = over.as_ref().map_or("", |over| over.parameter.as_str());
+                let width = path.len().max(18);
+                let [_, fall] = quiescence(self.in_band());
+                let _ = writeln!(
+                    text,
+                    "\n  {path:<width$}  {:<15}share of starts that {fall}",
+                    "stability"
+                );
+                for portrait in portraits {
+                    let value = portrait.value.map_or_else(String::new, figure);
+                    let local = portrait.local.as_ref().map_or("unknown", |verdict| *verdict);
+                    let share = portrait.quiet.map_or_else(|| "unknown".to_owned(), Share::percent);
+                    let _ = writeln!(text, "  {value:<width$}  {local:<15}{share}");
+                }
+            }
+        }
+        let _ = writeln!(text, "  bounds: {}", self.meaning());
+        text
     }
 
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
         vec![("basins", self.dataset(study))]
     }
 
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
         Some(picture::basins(study, self))
     }
 }
 
-fn table(study: &BeltStudy, done: &Basins) -> String {
+fn motions(study: &SystemStudy, portrait: &Portrait) -> String {
     let mut text = String::new();
-    let _ = writeln!(text, "  {}", done.starts_in_words(study));
-    match (&done.varied, done.portraits.as_slice()) {
-        (None, [portrait]) => text += &attractors(study, portrait),
-        (varied, portraits) => {
-            let path = varied.as_ref().map_or("", |varied| varied.path.as_str());
-            let [_, fall] = quiescence(done.in_band());
-            let _ = writeln!(text, "\n  {path:<18}  base response   share of starts that {fall}");
-            for portrait in portraits {
-                let value = portrait.value.map_or_else(String::new, figure);
-                let local = portrait.local.as_ref().map_or("unknown", |verdict| verdict.name());
-                let share = portrait.quiet.map_or_else(
-                    || "unknown".to_owned(),
-                    |share| {
-                        format!(
-                            "{} ({} to {})",
-                            figure(share.fraction),
-                            figure(share.low),
-                            figure(share.high)
-                        )
-                    },
-                );
-                let _ = writeln!(text, "  {value:<18}  {local:<14}  {share}");
-            }
-        }
-    }
-    let _ = writeln!(text, "  bounds: {}", done.meaning());
-    text
-}
-
-fn attractors(study: &BeltStudy, portrait: &Portrait) -> String {
-    let mut text = String::new();
-    for (basin, share) in portrait.gathered.basins.iter().zip(&portrait.shares) {
-        let attractor = &basin.attractor;
-        let quiet = portrait.quiet_word(attractor);
-        let quiet = quiet.map_or_else(String::new, |word| format!("{word}, "));
+    for basin in &portrait.basins {
+        let (share, attractor) = (basin.share, &basin.attractor);
+        let quiet = match (attractor.quiet, portrait.in_band) {
+            (false, _) => "",
+            (true, true) => "in step with the dither, ",
+            (true, false) => "quiet, ",
+        };
+        let stick = attractor.stick.iter().map(|share| figure(*share)).collect::<Vec<_>>();
         let _ = writeln!(
             text,
             "  {:>6.2} % ({:.2} to {:.2})  {quiet}{}, peak-to-peak {}, stick fraction {}",
             100.0 * share.fraction,
             100.0 * share.low,
             100.0 * share.high,
-            words(portrait.scales, attractor, portrait.period),
-            figure_of(study, Quantity::Displacement, attractor.size()),
-            figure(attractor.stick_fraction),
+            attractor.words(study.units()),
+            in_units(study.units(), Quantity::Displacement, attractor.size()),
+            if stick.is_empty() { "0".to_owned() } else { stick.join(", ") },
         );
+    }
+    if portrait.unknown.starts > 0 {
+        let _ = writeln!(text, "  {:>6.2} % outcome unknown", 100.0 * portrait.unknown.fraction);
     }
     text
 }

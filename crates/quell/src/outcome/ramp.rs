@@ -1,4 +1,4 @@
-//! `bifurcation --ramp` of belts and systems.
+//! `bifurcation --ramp`: a slow ramp compared with exact thresholds.
 
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -12,47 +12,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::ramp::Ramp;
 use crate::run::system::in_units;
-use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
-use crate::words::in_words;
-
-impl Presented<BeltSetup> for Ramp {
-    const TITLED: bool = true;
-
-    fn json(&self, study: &BeltStudy) -> Json {
-        let sentence = Presented::sentence(self, study).unwrap_or_default();
-        Self::json(self, sentence, || Fields::new(study.scales()))
-    }
-
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(Self::sentence(self, |quantity, value| in_words(study, quantity, value)))
-    }
-
-    fn table(&self, study: &BeltStudy) -> String {
-        let mut table = TextTable::new(study.scales());
-        for switch in &self.switches {
-            table.number(event(switch.to_quiet), self.ramped.quantity, switch.value);
-            table.number("  at the time", Quantity::Time, switch.time);
-        }
-        for threshold in self.thresholds.iter().flatten() {
-            let name = format!("exact: {} above", threshold.becomes);
-            table.number(&name, self.ramped.quantity, threshold.value);
-        }
-        if let Some((begins, ends)) = self.limits() {
-            table.number("vibration counts from", Quantity::Displacement, begins);
-            table.number("  and until below", Quantity::Displacement, ends);
-        }
-        table.text()
-    }
-
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        let sentence = Presented::sentence(self, study).unwrap_or_default();
-        vec![("ramp", self.columns(Dataset::new(study, "bifurcation: ramp"), sentence))]
-    }
-
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::ramp::of_belt(study, self)))
-    }
-}
+use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for Ramp {
     const TITLED: bool = true;
@@ -91,7 +51,7 @@ impl Presented<SystemSetup> for Ramp {
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::ramp::of_system(study, self)))
+        Some(Ok(picture::ramp::ramp(study, self)))
     }
 }
 

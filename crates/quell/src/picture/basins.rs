@@ -1,24 +1,23 @@
-//! Basins in the plane of starts, and the share of quiescent responses over a parameter.
+//! Basins in the plane of starts, and the share of quiescent motions over a parameter.
 
-use quell_dynamics::attractor::{Basin, BasinLabel};
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_model::units::Quantity;
-
-use super::bifurcation::{axis, intervals, range};
-use super::caption::{VariedNumber, caption, with_varied};
+use super::bifurcation::intervals;
+use super::caption::{VariedNumber, caption_of_varied};
 use super::map::{MapAxis, MapKind, MappedQuantity, map_panel};
 use super::ruler::Ruler;
+use super::system::axis_of;
 use super::{undrawable, with_unstable};
 use crate::complaint::Failure;
 use crate::plot::{
     Figure, Layer, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, Region,
     SharedLegend, Size,
 };
-use crate::run::attractor::words;
-use crate::run::basins::{Basins, Portrait, Share};
-use crate::study::BeltStudy;
+use crate::run::basins::{Basins, FoundBasin, Portrait, Share, quiescence};
+use crate::run::system::attractor::MotionKind;
+use crate::run::system::cycle_samples::CycleSamples;
+use crate::run::system::start::state_quantity;
+use crate::study::SystemStudy;
 
-/// Maximum number of states of a section that are drawn.
+/// Most states of a motion that are drawn.
 const STATES: usize = 400;
 
 /// Reason in the legend for a start without colour.
@@ -28,98 +27,127 @@ const UNKNOWN: &str = "outcome unknown";
 ///
 /// # Errors
 /// [`Failure::Failed`] if it cannot be drawn.
-pub fn basins(study: &BeltStudy, done: &Basins) -> Result<Figure, Failure> {
-    let figure = match (&done.varied, done.portraits.as_slice()) {
-        (None, [portrait]) => {
-            Figure::single(plane(study, done, portrait)?).size(Size::Frame(420.0, 330.0))
-        }
-        _ => {
-            Figure::single(shares(done)).legend(SharedLegend::Above).size(Size::Frame(480.0, 280.0))
-        }
+pub fn basins(study: &SystemStudy, done: &Basins) -> Result<Figure, Failure> {
+    let figure = match (&done.over, done.portraits.as_slice()) {
+        (None, [portrait]) => Figure::single(plane(study, done, portrait)?.legend(Legend::Above))
+            .size(Size::Frame(420.0, 330.0)),
+        _ => Figure::single(shares(study, done))
+            .legend(SharedLegend::Above)
+            .size(Size::Frame(480.0, 280.0)),
     };
-    let title = study.title().unwrap_or_default();
-    let ranges: Vec<VariedNumber> = done.varied.iter().map(range).collect();
-    let text = format!(
-        "{} {}. {}.",
-        done.sentence(study),
-        done.starts_in_words(study),
-        with_varied(study, caption, &ranges)
-    );
-    Ok(figure.title(title).caption(text))
+    let ranges: Vec<VariedNumber> =
+        done.over.iter().map(|over| (over.parameter.as_str().into(), over.from, over.to)).collect();
+    let (sentence, starts) = (done.sentence(study), done.starts_in_words(study));
+    Ok(figure
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{sentence} {starts}. {}", caption_of_varied(study, &ranges))))
 }
 
-/// The plane of starts of one portrait.
-///
-/// # Errors
-/// [`Failure::Failed`] if it cannot be drawn.
-pub(crate) fn plane(
-    study: &BeltStudy,
-    done: &Basins,
-    portrait: &Portrait,
-) -> Result<Panel, Failure> {
-    let window = done.starts.window();
-    let (x, v) = (
-        Ruler::of(study, Quantity::Displacement, [window.displacement.0, window.displacement.1]),
-        Ruler::of(study, Quantity::Velocity, [window.velocity.0, window.velocity.1]),
-    );
-    let basins = &portrait.gathered.basins;
-    let outcome = |place: usize| {
-        let share = 100.0 * portrait.shares[place].fraction;
-        let attractor = &basins[place].attractor;
-        let name = portrait
-            .quiet_word(attractor)
-            .map_or_else(|| words(portrait.scales, attractor, portrait.period), str::to_owned);
-        (role(basins, place), format!("{name}: {share:.1}\u{a0}%"))
+/// An axis of the plane, and its ruler.
+fn axis(study: &SystemStudy, done: &Basins, number: usize) -> (PlotAxis, Ruler) {
+    let (from, to) = done.windows[number];
+    let name = done.names[number].as_str();
+    let Some(quantity) = state_quantity(study.system(), done.places[number]) else {
+        return (PlotAxis::new(name), Ruler::of_unit("", from.abs().max(to.abs())));
+    };
+    let ruler = Ruler::of_system(study, quantity, [from, to]);
+    (ruler.axis(name, ""), ruler)
+}
+
+/// A limit cycle in the plane.
+fn cycle(study: &SystemStudy, done: &Basins, state: &[f64], period: f64) -> Vec<(f64, f64)> {
+    let free = study.system().undithered();
+    let samples = CycleSamples::over(&free, &study.observe(), state, period);
+    let [first, second] = done.places;
+    samples.states.chunks(state.len()).map(|state| (state[first], state[second])).collect()
+}
+
+/// The plane of starts, with the states of each motion at whole periods of the dither.
+fn plane(study: &SystemStudy, done: &Basins, portrait: &Portrait) -> Result<Panel, Failure> {
+    let [(across, x), (up, y)] = [0, 1].map(|number| axis(study, done, number));
+    let outcome = |(place, basin): (usize, &FoundBasin)| {
+        let share = 100.0 * basin.share.fraction;
+        let words = basin.attractor.words(study.units());
+        (role(&portrait.basins, place), format!("{words}: {share:.1}\u{a0}%"))
+    };
+    let outcomes = portrait.basins.iter().enumerate().map(outcome);
+    let inside = |state: &[f64; 2]| {
+        state.iter().zip(done.windows).all(|(value, (from, to))| (from..=to).contains(value))
     };
     let mut over: Vec<Layer> = Vec::new();
-    for (place, basin) in basins.iter().enumerate() {
-        let section = &basin.attractor.section;
-        let step = section.len().div_ceil(STATES).max(1);
+    for basin in &portrait.basins {
+        let label = match (over.is_empty(), portrait.is_dithered) {
+            (false, _) => "",
+            (true, true) => "states of the motions at whole periods",
+            (true, false) => "the motions",
+        };
+        if let MotionKind::Cycle { period, .. } = basin.attractor.kind {
+            let line = cycle(study, done, &basin.attractor.state, period);
+            let line = line.into_iter().map(|(a, b)| (x.place(a), y.place(b)));
+            over.push(Polyline::new(PlotRole::Exact, line).width(1.2).label(label).into());
+            continue;
+        }
+        let states = &basin.attractor.states;
+        let step = states.len().div_ceil(STATES).max(1);
+        let states = states.iter().step_by(step).map(|state| done.places.map(|place| state[place]));
         let states: Vec<(f64, f64)> =
-            section.iter().step_by(step).map(|(a, b)| (x.place(*a), v.place(*b))).collect();
+            states.filter(inside).map(|[a, b]| (x.place(a), y.place(b))).collect();
+        if states.is_empty() {
+            continue;
+        }
         let single = states.len() == 1;
         let points = Points::new(PlotRole::Exact, states);
         let marker = if single { Marker::Cross } else { Marker::Disc };
-        let label = if place == 0 { "stroboscopic sections of the responses" } else { "" };
         over.push(points.marker(marker).size(if single { 8.0 } else { 2.4 }).label(label).into());
     }
-    let (across, up) = (x.axis("displacement", "x"), v.axis("velocity", "x′"));
-    let labels = &portrait.gathered.labels;
-    let Some((columns, rows)) = done.starts.axes() else {
-        let mut panel = Panel::new(across, up);
-        for place in 0..basins.len() {
-            let (role, label) = outcome(place);
-            let states = done.starts.states().iter().zip(labels);
-            let inside = states.filter(|(_, label)| **label == BasinLabel::Attractor(place));
-            let inside =
-                inside.map(|(state, _)| (x.place(state.displacement), v.place(state.velocity)));
-            panel = panel.with(Points::new(role, inside).size(3.0).label(label));
-        }
-        return Ok(panel.with_all(over).legend(Legend::Above));
+    let Some(values) = done.layout.axes(done.windows) else {
+        let panel =
+            outcomes.enumerate().fold(Panel::new(across, up), |panel, (place, (role, label))| {
+                let starts = done.starts.iter().zip(&portrait.ends);
+                let mine = starts.filter(|(_, end)| **end == Some(place));
+                let mine = mine.map(|([a, b], _)| (x.place(*a), y.place(*b)));
+                panel.with(Points::new(role, mine).size(3.0).label(label))
+            });
+        return Ok(panel.with_all(over));
     };
-    let value = |column: usize, row: usize| match labels[row * columns.len() + column] {
-        BasinLabel::Attractor(place) => Ok(place as f64),
-        BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => Err(0),
-    };
-    let values =
-        (0..columns.len()).flat_map(|column| (0..rows.len()).map(move |row| (column, row)));
+    let (columns, rows) = (values[0].len(), values[1].len());
+    let places = (0..columns).flat_map(|column| (0..rows).map(move |row| row * columns + column));
+    let [first, second] = values;
+    let axes = vec![
+        MapAxis { axis: across, values: first.iter().map(|value| x.place(*value)).collect() },
+        MapAxis { axis: up, values: second.iter().map(|value| y.place(*value)).collect() },
+    ];
     let picture = MappedQuantity {
-        values: values.map(|(column, row)| value(column, row)).collect(),
-        axes: vec![
-            MapAxis { axis: across, values: columns.iter().map(|value| x.place(*value)).collect() },
-            MapAxis { axis: up, values: rows.iter().map(|value| v.place(*value)).collect() },
-        ],
+        values: places.map(|at| portrait.ends[at].map(|place| place as f64).ok_or(0)).collect(),
+        axes,
         quantity: PlotAxis::new("outcome"),
-        kind: MapKind::Outcome((0..basins.len()).map(outcome).collect()),
+        kind: MapKind::Outcome(outcomes.collect()),
         reasons: vec![UNKNOWN.to_owned()],
         zero: None,
         over,
     };
-    Ok(map_panel(&picture, false).map_err(undrawable)?.legend(Legend::Above))
+    map_panel(&picture, false).map_err(undrawable)
 }
 
-/// The quiescent response is blue, the largest other one red.
-fn role(basins: &[Basin], place: usize) -> PlotRole {
+/// The share of starts that end in step with the dither, or at rest, over the parameter.
+fn shares(study: &SystemStudy, done: &Basins) -> Panel {
+    let Some(over) = &done.over else { return Panel::default() };
+    let (axis, ruler) = axis_of(study, &over.parameter, (over.from, over.to));
+    let local = done.portraits.iter().filter_map(|portrait| {
+        let unstable = portrait.local.as_ref().is_ok_and(|verdict| *verdict == "unstable");
+        Some((ruler.place(portrait.value?), unstable))
+    });
+    let local: Vec<(f64, bool)> = local.collect();
+    let shares = done
+        .portraits
+        .iter()
+        .filter_map(|portrait| Some((ruler.place(portrait.value?), portrait.quiet)));
+    let [_, fall] = quiescence(done.in_band());
+    panel_of_shares((axis, &format!("starts that {fall}")), &local, &shares.collect::<Vec<_>>())
+}
+
+/// The quiescent motion is blue, the largest other one red.
+fn role(basins: &[FoundBasin], place: usize) -> PlotRole {
     let quiet_first = basins.first().is_some_and(|basin| basin.attractor.quiet);
     match (quiet_first, place) {
         (true, 0) => PlotRole::Stable,
@@ -128,24 +156,8 @@ fn role(basins: &[Basin], place: usize) -> PlotRole {
     }
 }
 
-/// The share of starts that reach a quiescent response over the parameter.
-fn shares(done: &Basins) -> Panel {
-    let Some(varied) = &done.varied else { return Panel::default() };
-    let (across, ruler) = axis(varied);
-    let local = done.portraits.iter().filter_map(|portrait| {
-        Some((ruler.place(portrait.value?), portrait.local == Ok(OrbitVerdict::Unstable)))
-    });
-    let local: Vec<(f64, bool)> = local.collect();
-    let shares = done
-        .portraits
-        .iter()
-        .filter_map(|portrait| Some((ruler.place(portrait.value?), portrait.quiet)));
-    let label = "starts that fall quiet";
-    panel_of_shares((across, label), &local, &shares.collect::<Vec<_>>())
-}
-
 /// Shares of starts over a parameter, where the response is locally unstable or not; the curve has a gap where no share is known.
-pub(super) fn panel_of_shares(
+fn panel_of_shares(
     (across, label): (PlotAxis, &str),
     unstable: &[(f64, bool)],
     shares: &[(f64, Option<Share>)],

@@ -3,17 +3,13 @@
 use quell_model::units::Quantity;
 use quell_numerics::order::ascending_by;
 
-use super::caption::{VariedNumber, caption_of_varied};
+use super::caption::caption_of_varied;
 use super::ruler::Ruler;
-use super::sweep::{short_name, unit_or_none};
 use super::system::axis_of;
 use super::with_unstable;
-use crate::plot::{
-    Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
-};
+use crate::plot::{Figure, Marker, Panel, PlotRole, Points, Polyline, SharedLegend, Sharing, Size};
 use crate::run::bifurcation::{Bifurcation, Branch, SweepDirection};
 use crate::run::system::attractor::SystemAttractor;
-use crate::run::varied::Varied;
 use crate::study::SystemStudy;
 
 /// Maximum number of states of all sections that are drawn: more states overlap, and the file would have many megabytes.
@@ -21,22 +17,6 @@ const MOST_STATES: usize = 16_000;
 
 /// Number of states of each section that are always drawn.
 const STATES: usize = 12;
-
-/// The axis of a varied parameter over its values, and its ruler.
-pub(super) fn axis(varied: &Varied) -> (PlotAxis, Ruler) {
-    let (_, from, to) = range(varied);
-    let ruler = Ruler::of_unit(unit_or_none(varied.unit), from.abs().max(to.abs()));
-    let axis =
-        ruler.axis(short_name(varied.about), &varied.symbol.unwrap_or("").replace('₀', "_0"));
-    (axis.between(ruler.place(from), ruler.place(to)), ruler)
-}
-
-/// The range of a varied parameter.
-pub(super) fn range(varied: &Varied) -> VariedNumber<'_> {
-    let ends = varied.values.first().zip(varied.values.last());
-    let (from, to) = ends.map_or((0.0, 0.0), |(from, to)| (*from, *to));
-    (varied.path.as_str().into(), from, to)
-}
 
 /// Intervals in which a condition holds; their ends are midpoints between neighbouring values.
 pub(super) fn intervals(values: &[(f64, bool)]) -> Vec<(f64, f64)> {

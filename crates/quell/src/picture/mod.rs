@@ -31,7 +31,6 @@ pub mod sketch;
 mod stability;
 mod sweep;
 pub mod system;
-pub mod system_basins;
 pub mod system_modes;
 pub mod system_motion;
 mod thresholds;

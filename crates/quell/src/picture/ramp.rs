@@ -2,26 +2,17 @@
 
 use quell_model::units::Quantity;
 
-use super::caption::{caption_of_run, caption_of_system};
+use super::caption::caption_of_system;
 use super::ruler::Ruler;
 use crate::outcome::Presented;
 use crate::plot::{
     Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
 };
 use crate::run::ramp::Ramp;
-use crate::study::{BeltStudy, SystemStudy};
+use crate::study::SystemStudy;
 
-/// Of a belt.
-pub(crate) fn of_belt(study: &BeltStudy, done: &Ramp) -> Figure {
-    let ruler = |quantity, values: Vec<f64>| Ruler::of(study, quantity, values);
-    let sentence = Presented::sentence(done, study).unwrap_or_default();
-    figure(done, ruler, "displacement", "x")
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{} {sentence}", caption_of_run(study)))
-}
-
-/// Of a system.
-pub(crate) fn of_system(study: &SystemStudy, done: &Ramp) -> Figure {
+/// The picture.
+pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
     let ruler = |quantity, values: Vec<f64>| Ruler::of_system(study, quantity, values);
     let sentence = Presented::sentence(done, study).unwrap_or_default();
     figure(done, ruler, "observed displacement", "")

@@ -5,7 +5,6 @@
 
 pub mod actuator;
 pub mod atlas;
-pub mod attractor;
 pub mod basins;
 mod belt_start;
 pub(crate) mod belt_system;

@@ -4,13 +4,10 @@ use quell_model::Belt;
 use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE, Parameter, SCALES};
 use quell_model::units::Quantity;
 
-use super::evenly;
-use crate::complaint::{Complaint, Complaints, Fault, Origin};
-use crate::document::given_number;
-use crate::nearest;
+use crate::complaint::{Complaint, Fault};
 use crate::study::vocabulary::size::SignalMeasure;
 use crate::study::vocabulary::{DocumentKind, Role, join};
-use crate::study::{Address, BeltStudy, Kind, ParameterId, SystemStudy, key_at, with_unit};
+use crate::study::{BeltStudy, Kind, ParameterId, SystemStudy, key_at, with_unit};
 use crate::words::digits;
 
 /// What a varied number must be.
@@ -30,101 +27,6 @@ pub struct Range {
     pub to: f64,
     /// Number of values, both ends included.
     pub points: usize,
-}
-
-/// One number of a study and its values in ascending order.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Varied {
-    /// Path, such as `dither.amplitude`, or an SI key in a study in SI.
-    pub path: String,
-    /// Description in one line.
-    pub about: &'static str,
-    /// Symbol in the equations, if any.
-    pub symbol: Option<&'static str>,
-    /// Unit of the values.
-    pub unit: &'static str,
-    /// The values, in that unit, at equal steps from the first to the last.
-    pub values: Vec<f64>,
-}
-
-impl Varied {
-    /// A range of values; `option` is the option that gave the path.
-    ///
-    /// # Errors
-    /// Every complaint about the path, the ends and the number of values at once.
-    pub fn new(study: &BeltStudy, option: &'static str, range: &Range) -> Result<Self, Complaints> {
-        let &Range { parameter: ref path, from, to, points } = range;
-        let address = address(study, option, path)?;
-        let mut complaints = Vec::new();
-        let mut lacking: Vec<String> = Vec::new();
-        let studies = [("--from", from), ("--to", to)].map(|(end, value)| {
-            let wrong = match study.with(path, value) {
-                Ok(study) => return Some(study),
-                Err(wrong) => wrong,
-            };
-            for complaint in wrong {
-                if complaint.fault == Fault::Value {
-                    // Report the value of the option, not the numbers derived from it.
-                    let complaint = Complaint { value: given_number(value), ..complaint };
-                    complaints.push(for_option(complaint, end));
-                } else {
-                    // The place in the study is irrelevant: the value comes from this option.
-                    let said = Complaint { origin: Origin::Whole, ..complaint }.to_string();
-                    if !lacking.contains(&said) {
-                        lacking.push(said);
-                    }
-                }
-            }
-            None
-        });
-        if !lacking.is_empty() {
-            let allowed = format!("a number of this study: {}", lacking.join("; "));
-            complaints.push(Complaint::option(option, path.as_str(), allowed));
-        }
-        complaints.extend(ascending(from, to).err().map(|complaint| *complaint));
-        if !(2..=MOST_VALUES).contains(&points) {
-            let allowed = format!("a whole number from 2 to {MOST_VALUES}");
-            complaints.push(Complaint::option("--points", points, allowed));
-        }
-        if let [Some(first), Some(last)] = &studies
-            && first.belt() == last.belt()
-            && from < to
-        {
-            complaints.push(Complaint::option(option, path.as_str(), OF_THE_EQUATIONS));
-        }
-        if !complaints.is_empty() {
-            return Err(complaints.into());
-        }
-        Ok(Self {
-            path: path.clone(),
-            about: address.key.about,
-            symbol: address.key.symbol(),
-            unit: address.key.unit_in_words(DocumentKind::Belt, study.file_units()),
-            values: evenly((from, to), points),
-        })
-    }
-
-    /// The study at one value.
-    ///
-    /// # Errors
-    /// Complaints if a value inside the range is not allowed although its ends are.
-    pub fn study_at(&self, study: &BeltStudy, value: f64) -> Result<BeltStudy, Complaints> {
-        study.with(&self.path, value)
-    }
-
-    /// Name in datasets: the path with its dots as underscores.
-    pub fn name(&self) -> String {
-        self.path.replace(['.', '['], "_").replace(']', "")
-    }
-}
-
-/// Refuses a range whose last value is not above the first.
-pub(super) fn ascending(from: f64, to: f64) -> Result<(), Box<Complaint>> {
-    if from < to {
-        return Ok(());
-    }
-    let allowed = format!("a number above --from {from}");
-    Err(Box::new(Complaint::option("--to", given_number(to), allowed)))
 }
 
 /// A number of the equations of a study, named by one of its keys.
@@ -315,31 +217,4 @@ pub(crate) fn name_of(study: &BeltStudy, path: &str) -> Option<(&'static str, &'
     let with_unit = named.filter(|_| study.scales().is_some());
     let (symbol, about) = with_unit.unwrap_or((key.symbol().unwrap_or_default(), key.about));
     Some((about, symbol))
-}
-
-fn address(study: &BeltStudy, option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {
-    let origin = Origin::Argument(option);
-    let known = [DITHER_AMPLITUDE, BELT_VELOCITY].map(|parameter| key_of(study, parameter.path));
-    let refuse = |suggestion: Option<String>| {
-        let allowed = format!("a number of the study, such as {} or {}", known[0], known[1]);
-        let complaint = Complaint::new(Fault::Value, option, origin, path, allowed);
-        Box::new(complaint.suggesting(suggestion))
-    };
-    let found = key_at(path, DocumentKind::Belt).map_err(|nearest| {
-        let nearest = nearest.map(|path| key_of(study, &path));
-        refuse(nearest.or_else(|| nearest::word(path, known.each_ref().map(String::as_str))))
-    })?;
-    if found.key.takes_number() { Ok(found) } else { Err(refuse(None)) }
-}
-
-/// A complaint about a study at an end of the range, as one about that option.
-fn for_option(complaint: Complaint, option: &'static str) -> Complaint {
-    let allowed = format!("such that {} is {}", complaint.key, complaint.allowed);
-    Complaint {
-        fault: Fault::Value,
-        key: option.to_owned(),
-        origin: Origin::Argument(option),
-        allowed,
-        ..complaint
-    }
 }

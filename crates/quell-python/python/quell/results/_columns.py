@@ -172,16 +172,14 @@ class BasinsColumns(Frozen):
     attractor_multiplier: npt.NDArray[np.float64]
     attractor_peak_to_peak: npt.NDArray[np.float64]
     attractor_period: npt.NDArray[np.float64]
-    attractor_periods: npt.NDArray[np.float64]
+    attractor_periods: npt.NDArray[Any]
     attractor_periods_to_settle: npt.NDArray[Any]
     attractor_quiet: npt.NDArray[Any]
     attractor_rotation_error: npt.NDArray[np.float64]
     attractor_rotation_number: npt.NDArray[np.float64]
     attractor_starts: npt.NDArray[Any]
-    attractor_stick_fraction: npt.NDArray[np.float64]
     attractor_velocity: npt.NDArray[np.float64]
     attractor_words: npt.NDArray[np.str_]
-    displacement: npt.NDArray[np.float64]
     layout_grid_value: npt.NDArray[Any]
     layout_sample: Any
     layout_seed: Any
@@ -190,6 +188,7 @@ class BasinsColumns(Frozen):
     portrait_quiet_fraction: npt.NDArray[np.float64]
     portrait_quiet_fraction_high: npt.NDArray[np.float64]
     portrait_quiet_fraction_low: npt.NDArray[np.float64]
+    portrait_unknown_starts: npt.NDArray[Any]
     portrait_value: npt.NDArray[np.float64]
     quiet: npt.NDArray[np.uint8]
     unknown_fraction: Any
@@ -198,11 +197,8 @@ class BasinsColumns(Frozen):
     unknown_fraction_low: float
     unknown_starts_value: Any
     up_value: npt.NDArray[np.float64]
-    velocity: npt.NDArray[np.float64]
     window_across_value: npt.NDArray[np.float64]
-    window_displacement_value: npt.NDArray[np.float64]
     window_up_value: npt.NDArray[np.float64]
-    window_velocity_value: npt.NDArray[np.float64]
 
 
 class BifurcationColumns(Frozen):

@@ -162,12 +162,8 @@ class Basins(_columns.BasinsColumns, Result):
     verb = "basins"
     starts: int
     """Number of starts."""
-    window_displacement: list[float]
-    """Least and largest x of the starts: lengths."""
-    window_velocity: list[float]
-    """Least and largest x′ of the starts: lengths per τ."""
     layout: dict[str, Any]
-    """``grid``: displacements and velocities; or ``sample`` and ``seed``."""
+    """``grid``: numbers of values of both numbers; or ``sample`` and ``seed``."""
     error_meaning: str
     """Meaning of the bounds of the fractions."""
     quiet_fraction: float | None
@@ -177,7 +173,7 @@ class Basins(_columns.BasinsColumns, Result):
     quiet_fraction_high: float | None
     """Its upper bound, in which starts with an unknown outcome count."""
     local_verdict: str
-    """Verdict on the base response."""
+    """Verdict on the base response, without dither on steady sliding."""
     attractors: list[dict[str, Any]]
     """``words``, ``starts``, ``fraction``, ``fraction_low``, ``fraction_high``, ``quiet``, ``kind``, … of each response."""
     unknown: dict[str, Any]
@@ -193,21 +189,19 @@ class Basins(_columns.BasinsColumns, Result):
     protocol: str
     """The method."""
     start: str
-    """System: the start in words, of which two numbers are varied."""
+    """The start in words, of which two numbers are varied."""
     plane: list[str]
-    """System: names of the two numbers that are varied."""
+    """Names of the two numbers that are varied."""
     window_across: list[float]
-    """System: least and largest value of the first."""
+    """Least and largest value of the first."""
     window_up: list[float]
-    """System: least and largest value of the second."""
+    """Least and largest value of the second."""
     across: list[float]
-    """System: values of the first number of each start."""
+    """Values of the first number of each start."""
     up: list[float]
-    """System: values of the second number of each start."""
+    """Values of the second number of each start."""
     unknown_starts: int
-    """System: number of starts with an unknown outcome."""
-    most_periods: int
-    """System: most periods of a run from one start."""
+    """Number of starts with an unknown outcome."""
 
 
 class Map(_columns.MapColumns, Result, Mapping[str, Any]):

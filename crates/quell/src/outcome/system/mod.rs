@@ -1,6 +1,5 @@
 //! Answers of a study of a system, one file per verb.
 
-mod basins;
 mod exact;
 mod friction;
 mod measured;

@@ -1,18 +1,17 @@
-//! Basins as sentences, JSON and datasets.
+//! Basins in sentences, JSON and datasets.
 
 use std::fmt::Write as _;
 
-use quell_dynamics::attractor::{Attractor, BasinLabel};
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::super::attractor::{VERDICTS, number, put, put_section, verdict_code, words};
 use super::{Basins, Portrait, Share};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::study::BeltStudy;
-use crate::words::{capital, in_words, plural};
+use crate::run::system::attractor::{VERDICTS, verdict_code};
+use crate::run::system::simulate::beyond_laws;
+use crate::run::system::start::{state_names, state_quantity};
+use crate::study::SystemStudy;
+use crate::words::{capital, digits, plural};
 
 /// The verb for a start that ends without slow motion, singular and plural. Under a dither in the band of the vibration
 /// itself no response is quiet.
@@ -25,15 +24,10 @@ pub fn quiescence(in_band: bool) -> [&'static str; 2] {
 }
 
 impl Portrait {
-    /// The word for a quiet attractor; `None` for one that vibrates.
-    pub fn quiet_word(&self, attractor: &Attractor) -> Option<&'static str> {
-        attractor.quiet.then_some(if self.in_band { "in step with the dither" } else { "quiet" })
-    }
-
     /// How many starts fall quiet, and whether the base response is stable.
-    pub fn sentence(&self) -> String {
-        let count = self.gathered.labels.len();
-        let unknown = self.gathered.unknown();
+    fn sentence(&self) -> String {
+        let count = self.ends.len();
+        let unknown = self.unknown.starts;
         let known = count - unknown;
         if known == 0 {
             let outcome = match count {
@@ -59,12 +53,12 @@ impl Portrait {
                 format!("Only {} of {count} starts {fall}{elsewhere}.", share.percent())
             }
             None => {
-                let basins = self.gathered.basins.len();
+                let basins = self.basins.len();
                 match (known, unknown) {
                     (1, 0) => format!("The start does not {fall}."),
                     (1, _) => format!("The only start with a known outcome does not {fall}."),
                     _ => format!(
-                        "None of {starts} {falls}; they end on {basins} attractor{}.",
+                        "None of {starts} {falls}; they end on {basins} motion{}.",
                         plural(basins)
                     ),
                 }
@@ -82,293 +76,273 @@ impl Portrait {
 
     /// The verdict on the base response.
     fn local_sentence(&self) -> String {
+        let subject = if self.is_dithered { "The base response" } else { "Steady sliding" };
         match &self.local {
-            Ok(verdict) => format!("The base response is {}.", verdict.name()),
+            Ok(verdict) => format!("{subject} is {verdict}."),
             Err(why) => format!("{}.", capital(why)),
         }
     }
 
-    /// The other attractors on which starts end, if some fall quiet.
+    /// The other motions on which starts end, if some fall quiet.
     fn elsewhere(&self) -> String {
-        let others = self.gathered.basins.iter().filter(|basin| !basin.attractor.quiet).count();
-        match (others, self.gathered.unknown()) {
+        let others = self.basins.iter().filter(|basin| !basin.attractor.quiet).count();
+        match (others, self.unknown.starts) {
             (0, _) => String::new(),
-            (1, 0) => "; the others end on another attractor".to_owned(),
-            (1, _) => "; one other attractor was found".to_owned(),
-            (_, 0) => format!("; the others end on {others} other attractors"),
-            _ => format!("; {others} other attractors were found"),
+            (1, 0) => "; the others end on another motion".to_owned(),
+            (1, _) => "; one other motion was found".to_owned(),
+            (_, 0) => format!("; the others end on {others} other motions"),
+            _ => format!("; {others} other motions were found"),
         }
     }
 
-    /// Index of the attractor on which each start ends; null if unknown.
-    fn ends(&self) -> Json {
-        let end = |label: &BasinLabel| match label {
-            BasinLabel::Attractor(place) => Json::from(*place),
-            BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => Json::Null,
+    fn put(&self, fields: &mut Fields, study: &SystemStudy) {
+        match &self.local {
+            Ok(verdict) => fields.plain("local_verdict", *verdict),
+            Err(why) => fields.unknown("local_verdict", why.as_str()),
         };
-        self.gathered.labels.iter().map(end).collect()
+        Share::put_quiet(fields, self.quiet);
+        let attractors = self.basins.iter().map(|basin| {
+            let mut inner = Fields::of_system(study.units());
+            basin.share.put(&mut inner);
+            inner.plain("periods_to_settle", basin.periods);
+            basin.attractor.put(&mut inner, study);
+            inner
+        });
+        let attractors: Vec<Fields> = attractors.collect();
+        fields.list("attractors", attractors).plain("unknown_starts", self.unknown.starts);
+        let mut unknown = Fields::of_system(study.units());
+        self.unknown.put(&mut unknown);
+        fields.nested("unknown", unknown);
     }
 }
 
 impl Basins {
-    /// The meaning of the shares and their bounds.
-    pub fn meaning(&self) -> &'static str {
-        self.starts.layout().meaning()
-    }
-
-    /// The window and its starts as text.
-    pub fn starts_in_words(&self, study: &BeltStudy) -> String {
-        let window = self.starts.window();
-        let x = |value| in_words(study, Quantity::Displacement, value);
-        let v = |value| in_words(study, Quantity::Velocity, value);
-        let layout = self.starts.layout().words();
-        let (from, to) = (window.displacement, window.velocity);
-        format!(
-            "{layout}, x from {} to {}, x′ from {} to {}",
-            x(from.0),
-            x(from.1),
-            v(to.0),
-            v(to.1)
-        )
-    }
-
-    /// Whether responses of the dither's own period may vibrate in the band of slow vibration, at any value.
+    /// Whether motions with the period of the dither may vibrate in the band of the vibration, at any value.
     pub fn in_band(&self) -> bool {
         self.portraits.iter().any(|portrait| portrait.in_band)
     }
 
-    /// The result in a few sentences.
-    pub fn sentence(&self, study: &BeltStudy) -> String {
-        match (&self.varied, self.portraits.as_slice()) {
-            (None, [portrait]) => portrait.sentence(),
-            (Some(varied), portraits) => {
-                let path = &varied.path;
-                let [falls, fall] = quiescence(self.in_band());
-                let value = |portrait: &Portrait| {
-                    portrait
-                        .value
-                        .map_or_else(String::new, |value| number(study, varied.unit, value))
-                };
-                let ends: Vec<String> =
-                    portraits.first().into_iter().chain(portraits.last()).map(value).collect();
-                let mut text = format!("Over {path} from {}", ends.join(" to "));
-                let known = || {
-                    portraits
-                        .iter()
-                        .filter_map(|portrait| Some((portrait, 100.0 * portrait.quiet?.fraction)))
-                };
-                let least = known().min_by(|a, b| a.1.total_cmp(&b.1));
-                let most = known().max_by(|a, b| a.1.total_cmp(&b.1));
-                if let (Some((least, low)), Some((most, high))) = (least, most) {
-                    let _ = write!(
-                        text,
-                        ", the share of starts that {fall} ranges from {low:.1} % (at {}) to {high:.1} % (at {})",
-                        value(least),
-                        value(most)
-                    );
-                } else {
-                    text.push_str(", the outcome of every start is unknown");
-                }
-                let only_local = portraits
-                    .iter()
-                    .filter(|portrait| {
-                        portrait.local == Ok(OrbitVerdict::Stable) && portrait.leaves()
-                    })
-                    .count();
-                let open = portraits.iter().filter(|portrait| portrait.unknown.starts > 0).count();
-                if open > 0 && least.is_some() {
-                    let _ = write!(
-                        text,
-                        ". Some outcomes are unknown at {open} of {} values",
-                        portraits.len()
-                    );
-                }
-                if only_local > 0 {
-                    let _ = write!(
-                        text,
-                        ". At {only_local} of {} values the base response is stable, but not every start {falls}",
-                        portraits.len()
-                    );
-                }
-                text + "."
-            }
-            (None, _) => String::new(),
+    /// How many starts fall quiet, or the range of their share over the parameter, in a few sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let mut sentences = match (&self.over, self.portraits.as_slice()) {
+            (None, [portrait]) => vec![portrait.sentence()],
+            _ => self.over_parameter(study),
+        };
+        let other = state_names(study.system()).len() - 2;
+        let [first, second] = &self.names;
+        if other > 0 {
+            sentences.push(format!(
+                "The starts are in the plane of {first} and {second}; the other {other} number{} of the state {} {}.",
+                plural(other),
+                if other == 1 { "starts" } else { "start" },
+                self.start
+            ));
         }
+        sentences.join(" ")
     }
 
-    /// Warnings about the result.
-    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
-        let mut warnings = self.slip.warnings(study);
-        for portrait in &self.portraits {
-            let at = match (portrait.value, &self.varied) {
-                (Some(value), Some(varied)) => format!(" at {} = {value}", varied.path),
+    /// A value of the parameter with its unit.
+    fn value(&self, study: &SystemStudy, value: f64) -> String {
+        let path = self.over.as_ref().map_or("", |over| over.parameter.as_str());
+        let unit = study.unit_of(path).filter(|unit| *unit != "1");
+        format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+    }
+
+    fn over_parameter(&self, study: &SystemStudy) -> Vec<String> {
+        let Some(over) = &self.over else { return Vec::new() };
+        let (from, to) = (self.value(study, over.from), self.value(study, over.to));
+        let mut text = format!("Over {} from {from} to {to}", over.parameter);
+        let known = || {
+            let portraits = self.portraits.iter();
+            portraits.filter_map(|portrait| Some((portrait.value?, portrait.quiet?.fraction)))
+        };
+        let least = known().min_by(|a, b| a.1.total_cmp(&b.1));
+        let most = known().max_by(|a, b| a.1.total_cmp(&b.1));
+        let [falls, fall] = quiescence(self.in_band());
+        match least.zip(most) {
+            Some(((at, low), (other, high))) => {
+                let (at, other) = (self.value(study, at), self.value(study, other));
+                let (low, high) = (100.0 * low, 100.0 * high);
+                let _ = write!(
+                    text,
+                    ", the share of starts that {fall} ranges from {low:.1} % (at {at}) to {high:.1} % (at {other})."
+                );
+            }
+            None => text.push_str(", the outcome of every start is unknown."),
+        }
+        let mut sentences = vec![text];
+        let count = self.portraits.len();
+        let open = self.portraits.iter().filter(|portrait| portrait.unknown.starts > 0).count();
+        if open > 0 && least.is_some() {
+            sentences.push(format!("Some outcomes are unknown at {open} of {count} values."));
+        }
+        let only_local = self.portraits.iter().filter(|portrait| {
+            portrait.local.as_ref().is_ok_and(|verdict| *verdict == "stable") && portrait.leaves()
+        });
+        let only_local = only_local.count();
+        if only_local > 0 {
+            let subject = if self.portraits.iter().any(|portrait| portrait.is_dithered) {
+                "the base response"
+            } else {
+                "steady sliding"
+            };
+            sentences.push(format!(
+                "At {only_local} of {count} values {subject} is stable, but not every start {falls}."
+            ));
+        }
+        sentences
+    }
+
+    /// The starts in words.
+    pub fn starts_in_words(&self, study: &SystemStudy) -> String {
+        let axes = [0, 1].map(|axis| {
+            let unit = Some(self.unit(study, axis)).filter(|unit| *unit != "1");
+            let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+            let (from, to) = self.windows[axis];
+            format!("{} from {} to {}{unit}", self.names[axis], digits(from), digits(to))
+        });
+        format!("{}, {}", self.layout.words(), axes.join(", "))
+    }
+
+    /// The meaning of the shares and their bounds.
+    pub fn meaning(&self) -> &'static str {
+        self.layout.meaning()
+    }
+
+    /// The unit of an axis.
+    fn unit(&self, study: &SystemStudy, axis: usize) -> &'static str {
+        let names = state_names(study.system());
+        let place = names.iter().position(|name| *name == self.names[axis]);
+        let quantity = place.and_then(|place| state_quantity(study.system(), place));
+        quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1")
+    }
+
+    /// Warnings: those of the study, and starts of unknown outcome.
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let unknown = self.portraits.iter().flat_map(|portrait| {
+            let at = match (portrait.value, &self.over) {
+                (Some(value), Some(over)) => {
+                    format!(" at {} = {}", over.parameter, self.value(study, value))
+                }
                 _ => String::new(),
             };
-            let mut reasons: Vec<(&str, usize)> = Vec::new();
-            for label in &portrait.gathered.labels {
-                let why = match label {
-                    BasinLabel::Attractor(_) => continue,
-                    BasinLabel::Unsettled(why) => why.about(),
-                    BasinLabel::Stalled(stalled) => stalled.why,
-                };
-                match reasons.iter_mut().find(|reason| reason.0 == why) {
-                    Some(reason) => reason.1 += 1,
-                    None => reasons.push((why, 1)),
-                }
-            }
-            warnings.extend(reasons.into_iter().map(|(why, count)| {
-                format!("the outcome of {count} start{}{at} is unknown: {why}", plural(count))
-            }));
-        }
-        warnings
+            portrait.reasons.iter().map(move |(why, count)| {
+                format!("the outcome of {count} start{}{at} is unknown: {why}", plural(*count))
+            })
+        });
+        let attractors = || {
+            let basins = self.portraits.iter().flat_map(|portrait| &portrait.basins);
+            basins.map(|basin| &basin.attractor)
+        };
+        let beyond = beyond_laws(study, |contact| {
+            attractors().map(|attractor| attractor.largest_slip[contact]).fold(0.0, f64::max)
+        });
+        study.warnings().iter().cloned().chain(beyond).chain(unknown).collect()
     }
 
     /// As JSON: the fields of a single portrait, or a list of portraits.
-    pub fn json(&self, study: &BeltStudy) -> Json {
-        let scales = study.scales();
-        let mut fields = Fields::new(scales);
-        let window = self.starts.window();
-        let pair = |pair: (f64, f64)| [pair.0, pair.1];
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let mut fields = Fields::of_system(study.units());
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("protocol", "each start at τ = 0 is run until a growth rate determines on which attractor it ends")
+            .plain(
+                "protocol",
+                "each start at t = 0 is run until it is certain on which motion it ends",
+            )
             .plain("error_meaning", self.meaning())
-            .numbers("window_displacement", Quantity::Displacement, &pair(window.displacement))
-            .numbers("window_velocity", Quantity::Velocity, &pair(window.velocity))
-            .plain("starts", self.starts.states().len());
-        fields.plain("layout", self.starts.layout().json());
-        if let Some(varied) = &self.varied {
-            fields.plain("parameter", varied.path.as_str()).plain("unit", varied.unit);
-            let portraits = self.portraits.iter().map(|portrait| {
-                let mut inner = Fields::new(scales);
-                inner.plain("value", portrait.value);
-                put_portrait(&mut inner, portrait, false);
-                inner
-            });
-            fields.list("portraits", portraits);
-        } else if let [portrait] = self.portraits.as_slice() {
-            put_portrait(&mut fields, portrait, true);
-            fields.plain("ends", portrait.ends());
+            .plain("plane", self.names.to_vec())
+            .plain("start", self.start.clone())
+            .plain("starts", self.starts.len())
+            .plain("layout", self.layout.json());
+        // Of a grid the values of each axis, of a sample those of each start.
+        let columns = self.layout.axes(self.windows).unwrap_or_else(|| {
+            [0, 1].map(|axis| self.starts.iter().map(|start| start[axis]).collect())
+        });
+        for (axis, (name, values)) in ["across", "up"].into_iter().zip(columns).enumerate() {
+            let (unit, (from, to)) = (self.unit(study, axis), self.windows[axis]);
+            fields.measured(name, unit, values);
+            let window = ["window_across", "window_up"][axis];
+            fields.measured(window, unit, vec![from, to]);
+        }
+        match (&self.over, self.portraits.as_slice()) {
+            (None, [portrait]) => {
+                portrait.put(&mut fields, study);
+                let ends: Vec<Json> = portrait.ends.iter().map(|end| Json::from(*end)).collect();
+                fields.plain("ends", ends);
+            }
+            (over, portraits) => {
+                let path = over.as_ref().map_or("", |over| over.parameter.as_str());
+                fields.plain("parameter", path).plain("unit", study.unit_of(path).unwrap_or("1"));
+                let portraits = portraits.iter().map(|portrait| {
+                    let mut inner = Fields::of_system(study.units());
+                    inner.plain("value", portrait.value);
+                    portrait.put(&mut inner, study);
+                    inner
+                });
+                fields.list("portraits", portraits);
+            }
         }
         fields.plain("warnings", self.warnings(study));
         fields.finish()
     }
 
-    /// The attractor of each start; with a parameter, the shares versus the parameter.
-    pub fn dataset(&self, study: &BeltStudy) -> Dataset {
+    /// The motion of each start; with a parameter, the shares over the parameter.
+    pub fn dataset(&self, study: &SystemStudy) -> Dataset {
         let facts = format!("{}; {}", self.starts_in_words(study), self.meaning());
-        match (&self.varied, self.portraits.as_slice()) {
-            (None, [portrait]) => self.map(study, portrait).fact(facts),
-            (varied, portraits) => {
-                let of = |value: &dyn Fn(&Portrait) -> f64| {
-                    portraits.iter().map(value).collect::<Vec<f64>>()
-                };
-                let quiet = |which: fn(Share) -> f64| {
-                    of(&|portrait| portrait.quiet.map_or(f64::NAN, which))
-                };
-                let verdicts: Vec<u8> =
-                    portraits.iter().map(|portrait| verdict_code(&portrait.local)).collect();
-                let (name, unit) = varied
-                    .as_ref()
-                    .map_or((String::new(), ""), |varied| (varied.name(), varied.unit));
-                Dataset::new(study, "basins")
-                    .fact(facts)
-                    .with_axis(Array::new(
-                        name,
-                        unit,
-                        of(&|portrait| portrait.value.unwrap_or(f64::NAN)),
-                    ))
-                    .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &verdicts))
-                    .array("quiet_fraction", Quantity::Ratio, quiet(|share| share.fraction))
-                    .array("quiet_fraction_low", Quantity::Ratio, quiet(|share| share.low))
-                    .array("quiet_fraction_high", Quantity::Ratio, quiet(|share| share.high))
-                    .array(
-                        "unknown_fraction",
-                        Quantity::Ratio,
-                        of(&|portrait| portrait.unknown.fraction),
-                    )
-                    .array(
-                        "attractors",
-                        Quantity::Count,
-                        of(&|portrait| portrait.gathered.basins.len() as f64),
-                    )
-            }
+        match (&self.over, self.portraits.as_slice()) {
+            (None, [portrait]) => self.dataset_of(study, portrait).fact(facts),
+            _ => self.dataset_of_shares(study).fact(facts),
         }
     }
 
-    /// The attractor of each start: over the grid, or one row per start.
-    fn map(&self, study: &BeltStudy, portrait: &Portrait) -> Dataset {
-        let labels = &portrait.gathered.labels;
-        let place = |label: &BasinLabel| match label {
-            BasinLabel::Attractor(place) => *place as f64,
-            BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => f64::NAN,
-        };
-        let quiet = |label: &BasinLabel| match label {
-            BasinLabel::Attractor(place) => {
-                u8::from(portrait.gathered.basins[*place].attractor.quiet)
-            }
-            BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => 2,
-        };
-        let ends: Vec<f64> = labels.iter().map(place).collect();
-        let quiet: Vec<u8> = labels.iter().map(quiet).collect();
-        let mut dataset = Dataset::new(study, "basins");
-        for (place, basin) in portrait.gathered.basins.iter().enumerate() {
-            dataset = dataset.fact(format!(
-                "attractor {place}: {}",
-                words(portrait.scales, &basin.attractor, portrait.period)
-            ));
+    /// Over the grid, or one row per start.
+    fn dataset_of(&self, study: &SystemStudy, portrait: &Portrait) -> Dataset {
+        let ends = portrait.ends.iter().map(|end| end.map_or(f64::NAN, |place| place as f64));
+        let is_quiet = |place: usize| u8::from(portrait.basins[place].attractor.quiet);
+        let quiet: Vec<u8> = portrait.ends.iter().map(|end| end.map_or(2, is_quiet)).collect();
+        let mut dataset = Dataset::of(&study.into(), "basins");
+        let words = portrait.basins.iter().map(|basin| basin.attractor.words(study.units()));
+        for (place, words) in words.enumerate() {
+            dataset = dataset.fact(format!("attractor {place}: {words}"));
         }
-        let words = vec![(0, "no"), (1, "yes"), (2, "unknown")];
-        let dataset = if let Some((x, v)) = self.starts.axes() {
-            // The last axis runs fastest.
-            dataset.axis("velocity", Quantity::Velocity, v).axis(
-                "displacement",
-                Quantity::Displacement,
-                x,
-            )
+        let axis = |number: usize, values: Vec<f64>| {
+            Array::new(self.names[number].as_str(), self.unit(study, number), values)
+        };
+        // The last axis runs fastest.
+        let dataset = if let Some([across, up]) = self.layout.axes(self.windows) {
+            dataset.with_axis(axis(1, up)).with_axis(axis(0, across))
         } else {
-            let states = self.starts.states();
-            let rows = (0..states.len()).map(|row| row as f64).collect();
-            dataset
-                .with_axis(Array::new("start", "1", rows))
-                .array(
-                    "displacement",
-                    Quantity::Displacement,
-                    states.iter().map(|start| start.displacement).collect(),
-                )
-                .array(
-                    "velocity",
-                    Quantity::Velocity,
-                    states.iter().map(|start| start.velocity).collect(),
-                )
+            let rows = (0..self.starts.len()).map(|row| row as f64).collect();
+            let column = |number: usize| {
+                axis(number, self.starts.iter().map(|start| start[number]).collect())
+            };
+            dataset.with_axis(Array::new("start", "1", rows)).with(column(0)).with(column(1))
         };
-        dataset
-            .with(Array::new("attractor", "1", ends))
-            .with(Array::of_words("quiet", words, &quiet))
+        dataset.with(Array::new("attractor", "1", ends.collect())).with(Array::of_words(
+            "quiet",
+            vec![(0, "no"), (1, "yes"), (2, "unknown")],
+            &quiet,
+        ))
     }
-}
 
-fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
-    match &portrait.local {
-        Ok(verdict) => fields.plain("local_verdict", verdict.name()),
-        Err(why) => fields.unknown("local_verdict", why.as_str()),
-    };
-    Share::put_quiet(fields, portrait.quiet);
-    let scales = portrait.scales;
-    let attractors = portrait.gathered.basins.iter().zip(&portrait.shares).map(|(basin, share)| {
-        let mut inner = Fields::new(scales);
-        inner.plain("words", words(portrait.scales, &basin.attractor, portrait.period));
-        share.put(&mut inner);
-        put(&mut inner, &basin.attractor, portrait.period);
-        if section {
-            put_section(&mut inner, &basin.attractor);
-        }
-        inner
-    });
-    let attractors: Vec<Fields> = attractors.collect();
-    fields.list("attractors", attractors);
-    let mut unknown = Fields::new(scales);
-    portrait.unknown.put(&mut unknown);
-    fields.nested("unknown", unknown);
+    fn dataset_of_shares(&self, study: &SystemStudy) -> Dataset {
+        let path = self.over.as_ref().map_or("", |over| over.parameter.as_str());
+        let of = |value: &dyn Fn(&Portrait) -> f64| -> Vec<f64> {
+            self.portraits.iter().map(value).collect()
+        };
+        let quiet =
+            |which: fn(Share) -> f64| of(&|portrait| portrait.quiet.map_or(f64::NAN, which));
+        let verdicts: Vec<u8> =
+            self.portraits.iter().map(|portrait| verdict_code(&portrait.local)).collect();
+        let values = of(&|portrait| portrait.value.unwrap_or(f64::NAN));
+        Dataset::of(&study.into(), "basins")
+            .with_axis(Array::new(path, study.unit_of(path).unwrap_or("1"), values))
+            .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &verdicts))
+            .with(Array::new("quiet_fraction", "1", quiet(|share| share.fraction)))
+            .with(Array::new("quiet_fraction_low", "1", quiet(|share| share.low)))
+            .with(Array::new("quiet_fraction_high", "1", quiet(|share| share.high)))
+            .with(Array::new("unknown_fraction", "1", of(&|portrait| portrait.unknown.fraction)))
+            .with(Array::new("attractors", "1", of(&|portrait| portrait.basins.len() as f64)))
+    }
 }

@@ -1,57 +1,78 @@
-//! `basins`: the attractors on which starts from a window of states end, the share of each, and the shares versus a parameter.
+//! `basins`: the motions on which starts in a plane of two numbers of the state end, the share of each, and the shares over a parameter.
 //!
 //! | file | contents |
 //! |---|---|
-//! | `starts` | the window and its starts: a grid or a random sample |
+//! | `plane` | the plane, its window, and how it is read |
+//! | `starts` | the starts in it: a grid or a random sample |
 //! | `share` | the size of a basin and its uncertainty |
 //! | `answer` | the outcome as sentences, JSON and datasets |
 
 mod answer;
+mod plane;
 mod share;
 mod starts;
 
-pub use answer::quiescence;
 #[cfg(test)]
 mod tests;
 
 use std::sync::atomic::Ordering;
 
 use quell_dynamics::attractor::{
-    AttractorSettings, BasinLabel, BasinsOfAttraction as Gathered, Patience, Settled, gather,
-    settle_many,
+    AttractorSettings, BasinLabel, Patience, Settled, gather, settle_many,
 };
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::simulation::{Stalled, within};
-use quell_model::units::Scales;
+use quell_dynamics::response::dither_reaches_the_band;
+use quell_dynamics::simulation::{Stalled, Start, within};
+use quell_model::{OneMass, System};
 
-use super::attractor::{settings, unknown};
-use super::varied::{Range, Varied};
-use super::{failed, moves, stopped};
-use crate::complaint::{Complaint, Failure};
-use crate::contact_state::refused_of_belt;
+use super::protocol::Protocol;
+use super::system::attractor::{
+    EndOfRun, SystemAttractor, ends_of_runs, local_verdict, measured_of_one_mass,
+};
+use super::system::has_equations;
+use super::system::tracked::{TrackRequest, understood};
+use super::varied::{MOST_VALUES, Range};
+use super::{evenly, failed as stalled, stopped};
+use crate::complaint::{Complaint, Failure, Origin};
 use crate::effort::{STEPS_OF_A_SEARCH, STEPS_OF_MANY_SEARCHES};
 use crate::parallel::Parallel;
-use crate::range::{self, SlipMet};
-use crate::study::BeltStudy;
+use crate::study::SystemStudy;
 use crate::sweep::Running;
 
+pub use answer::quiescence;
+pub use plane::{PlaneAxis, default_plane, read_plane};
 pub use share::Share;
-pub use starts::{MOST_STARTS, StartLayout, Starts, Window};
+pub use starts::{MOST_STARTS, StartLayout};
 
-/// Number of starts in a work item: enough to fill the SIMD lanes of a processor several times.
-const CHUNK: usize = 128;
+/// Starts of one task: enough to fill the lanes of the widest instruction set several times, so that a lane whose run has ended takes
+/// another.
+const TOGETHER: usize = 64;
+
+/// Tasks into which the starts of one value are divided, at least.
+const LEAST_TASKS: usize = 4;
+
+/// The grid of starts by default: of one mass, whose runs take microseconds a period, and of other systems.
+const GRIDS: [(usize, usize); 2] = [(41, 31), (21, 15)];
 
 /// Options of `basins`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct BasinsRequest {
-    /// Displacements x of the window; derived from the belt if `None`.
-    pub displacement: Option<(f64, f64)>,
-    /// Velocities x′ of the window; derived from the belt if `None`.
-    pub velocity: Option<(f64, f64)>,
-    /// Layout of the starts.
-    pub layout: StartLayout,
+    /// The two numbers of the state that are varied; the first displacement and its velocity if `None`.
+    pub axes: Option<[PlaneAxis; 2]>,
+    /// Layout of the starts; a grid if `None`.
+    pub layout: Option<StartLayout>,
     /// A parameter to vary.
     pub over: Option<Range>,
+}
+
+/// A motion with the starts that end on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundBasin {
+    /// The motion.
+    pub attractor: SystemAttractor,
+    /// The share of the starts.
+    pub share: Share,
+    /// Most periods of the dither that a start took.
+    pub periods: u32,
 }
 
 /// The basins at one value of the parameter, or of the study as it is.
@@ -59,195 +80,363 @@ pub struct BasinsRequest {
 pub struct Portrait {
     /// Value of the parameter, if one is varied.
     pub value: Option<f64>,
-    /// Period of the section, τ.
-    pub period: f64,
-    /// Whether the base response is stable, whether or not any start reaches it; or why this is unknown.
-    pub local: Result<OrbitVerdict, String>,
-    /// Attractors, and the attractor of each start.
-    pub gathered: Gathered,
-    /// The share of each attractor.
-    pub shares: Vec<Share>,
-    /// Scales at this value, of a study in SI: mass and stiffness may be varied.
-    pub scales: Option<Scales>,
-    /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
+    /// Whether some dither acts.
+    pub is_dithered: bool,
+    /// Whether a motion with the period of the dither may vibrate in the band of the vibration.
     pub in_band: bool,
-    /// The share of starts that end without slow motion; `None` if no outcome is known. Its upper bound includes the starts
-    /// of unknown outcome.
+    /// Verdict on the base response, without dither on steady sliding; or why it is unknown.
+    pub local: Result<&'static str, String>,
+    /// The motions, quiescent ones first, then the largest share first.
+    pub basins: Vec<FoundBasin>,
+    /// The motion of each start; `None` if its outcome is unknown.
+    pub ends: Vec<Option<usize>>,
+    /// The share of starts that end without slow motion. Starts of unknown outcome count only towards its upper bound; `None` if no
+    /// outcome is known.
     pub quiet: Option<Share>,
     /// The share of starts of unknown outcome.
     pub unknown: Share,
+    /// Why outcomes are unknown, each with its number of starts.
+    pub reasons: Vec<(String, usize)>,
 }
 
 /// The basins of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basins {
-    /// The starts.
-    pub starts: Starts,
+    /// Names of the axes.
+    pub names: [String; 2],
+    /// Their places in the state.
+    pub places: [usize; 2],
+    /// Least and largest value of each axis.
+    pub windows: [(f64, f64); 2],
+    /// Layout of the starts.
+    pub layout: StartLayout,
+    /// The values of both axes at each start; on a grid the first axis runs fastest.
+    pub starts: Vec<[f64; 2]>,
+    /// The start of all other numbers of the state in words.
+    pub start: String,
     /// The varied parameter.
-    pub varied: Option<Varied>,
+    pub over: Option<Range>,
     /// One portrait for each value; a single one without a parameter.
     pub portraits: Vec<Portrait>,
-    /// The slip reached by the starts in their first slow period, and by the attractors.
-    pub slip: SlipMet,
 }
 
-/// Runs every start until it has settled and groups the starts by attractor.
+/// The values of the varied parameter; a single `None` without one.
+fn values(
+    study: &SystemStudy,
+    over: Option<&Range>,
+    starts: usize,
+) -> Result<Vec<Option<f64>>, Failure> {
+    let Some(Range { parameter, from, to, points }) = over else { return Ok(vec![None]) };
+    understood(
+        study,
+        &TrackRequest { parameter: parameter.clone(), window: (*from, *to), along: None },
+    )
+    .map_err(|why| renamed(why, "--parameter", "--over"))?;
+    if !(2..=MOST_VALUES).contains(points) {
+        let allowed = format!("a whole number from 2 to {MOST_VALUES}");
+        return Err(Complaint::option("--points", *points, allowed).into());
+    }
+    if points.checked_mul(starts).is_none_or(|all| all > MOST_STARTS) {
+        let allowed = format!(
+            "such that the number of values times the number of starts ({starts}) is at most {MOST_STARTS}"
+        );
+        return Err(Complaint::option("--points", *points, allowed).into());
+    }
+    Ok(evenly((*from, *to), *points).into_iter().map(Some).collect())
+}
+
+/// Complaints about one option as those about another.
+fn renamed(why: Failure, from: &str, to: &'static str) -> Failure {
+    let Failure::Wrong(complaints) = why else { return why };
+    let renamed = |complaint: &Complaint| {
+        if complaint.key != from {
+            return complaint.clone();
+        }
+        Complaint { key: to.to_owned(), origin: Origin::Argument(to), ..complaint.clone() }
+    };
+    Failure::Wrong(complaints.iter().map(renamed).collect::<Vec<Complaint>>().into())
+}
+
+/// A value of the parameter: its study, the start of its runs, and its one mass, if its sections judge them.
+struct Scene {
+    value: Option<f64>,
+    study: SystemStudy,
+    begun: Vec<f64>,
+    mass: Option<OneMass>,
+}
+
+/// Where the starts of one task end.
+enum PartEnds {
+    /// By the sections of one mass, not yet grouped.
+    Settled(Vec<Result<Settled, Stalled>>),
+    /// Each by itself.
+    Each(Vec<Result<EndOfRun, String>>),
+}
+
+/// Settles every start and groups the starts by motion.
 ///
 /// # Errors
 /// Complaints about the request; [`Failure::Failed`] if no thread can be started or the work is interrupted.
 pub fn run(
-    study: &BeltStudy,
-    question: &BasinsRequest,
+    study: &SystemStudy,
+    request: &BasinsRequest,
     running: Running<'_>,
 ) -> Result<Basins, Failure> {
-    refused_of_belt(study, "basins")?;
-    let belt = study.belt();
-    let varied = question.over.as_ref().map(|over| Varied::new(study, "--over", over));
-    let starts = Starts::new(belt, question.displacement, question.velocity, question.layout);
-    let (varied, starts) = match (varied.transpose(), starts) {
-        (Ok(varied), Ok(starts)) => (varied, starts),
-        (varied, starts) => {
-            let mut complaints: Vec<Complaint> = varied.err().into_iter().flatten().collect();
-            complaints.extend(starts.err().into_iter().flatten());
-            return Err(complaints.into());
-        }
+    has_equations(study, "basins")?;
+    let system = study.system();
+    let axes = request.axes.clone().map_or_else(|| default_plane(study, [None; 2]), Ok)?;
+    let layout = request.layout.unwrap_or_else(|| {
+        let (columns, rows) = GRIDS[usize::from(system.one_mass().is_none())];
+        StartLayout::Grid { columns, rows }
+    });
+    let places = plane::places(study, &axes, layout)?;
+    let begun = Protocol::Study.state(study, system)?;
+    let window = |axis: usize| {
+        axes[axis].window.unwrap_or_else(|| plane::window(system, &begun, places[axis]))
     };
-    if let Some(varied) = &varied {
-        all_of(varied, &starts)?;
-    }
-    let studies = match &varied {
-        None => vec![(None, study.clone())],
-        Some(varied) => {
-            let at = |value: &f64| Ok((Some(*value), varied.study_at(study, *value)?));
-            varied.values.iter().map(at).collect::<Result<Vec<_>, Failure>>()?
-        }
-    };
-    for (_, study) in &studies {
-        let why = "on a belt at rest any position inside the stick band is an equilibrium, so there are no \
-                   isolated attractors";
-        moves(study, why)?;
-    }
-    let pool = running.pool()?;
-    running.progress.begin(studies.len() * starts.states().len(), 0);
-    let portraits = pool.install(|| portraits(&studies, &starts, running));
+    let windows = [window(0), window(1)];
+    let starts = layout.places(windows);
+    let values = values(study, request.over.as_ref(), starts.len())?;
+    let over = request.over.as_ref();
+    let over = over.map(|over| study.model().parameter(&over.parameter)).transpose()?;
+    let scenes = values.into_iter().map(|value| {
+        let numbers: Vec<_> = over.clone().zip(value).into_iter().collect();
+        let at = study.varied(&numbers)?;
+        let begun = Protocol::Study.state(&at, at.system())?;
+        // Of a mass on a surface at rest that no dither moves every state in stick is an end of its own.
+        let judged =
+            |mass: &OneMass| at.system().is_dithered() || mass.belt().belt_velocity() != 0.0;
+        let mass = at.system().one_mass().filter(judged);
+        Ok(Scene { value, study: at, begun, mass })
+    });
+    let scenes = scenes.collect::<Result<Vec<_>, Failure>>()?;
+    running.progress.begin(scenes.len() * starts.len(), 0);
+    let plan = BasinsPlan { scenes: &scenes, starts: &starts, places, layout };
+    let portraits = running.pool()?.install(|| plan.portraits(running));
     running.progress.end();
     let portraits = portraits?;
-    let slip = slip_met(&studies, &starts, &portraits);
-    Ok(Basins { starts, varied, portraits, slip })
+    let names = axes.map(|axis| axis.name);
+    let start = Protocol::Study.words(study);
+    let over = request.over.clone();
+    Ok(Basins { names, places, windows, layout, starts, start, over, portraits })
 }
 
-/// The slip reached by the starts, in one batch, and by the attractors.
-fn slip_met(
-    studies: &[(Option<f64>, BeltStudy)],
-    starts: &Starts,
-    portraits: &[Portrait],
-) -> SlipMet {
-    let mut slip = SlipMet::default();
-    for ((_, study), portrait) in studies.iter().zip(portraits) {
-        let belt = study.belt();
-        let cases: Vec<_> = starts.states().iter().map(|start| (belt, *start)).collect();
-        for speed in range::of_starts(&cases) {
-            slip.add(belt, speed);
-        }
-        for basin in &portrait.gathered.basins {
-            slip.add_attractor(belt, basin.attractor.state);
-        }
-    }
-    slip
+/// Starts of several values.
+struct BasinsPlan<'a> {
+    scenes: &'a [Scene],
+    starts: &'a [[f64; 2]],
+    places: [usize; 2],
+    layout: StartLayout,
 }
 
-/// Limits the number of values times starts, because all outcomes are kept.
-fn all_of(varied: &Varied, starts: &Starts) -> Result<(), Failure> {
-    let (values, starts) = (varied.values.len(), starts.states().len());
-    if values.checked_mul(starts).is_some_and(|all| all <= MOST_STARTS) {
-        return Ok(());
-    }
-    let allowed = format!(
-        "such that the number of values times the number of starts ({starts}) is at most {MOST_STARTS}"
-    );
-    Err(Complaint::option("--points", values, allowed).into())
-}
-
-/// The portrait of each study. Chunks of starts go to any free thread; the result of a run is independent of all others.
-fn portraits(
-    studies: &[(Option<f64>, BeltStudy)],
-    starts: &Starts,
-    running: Running<'_>,
-) -> Result<Vec<Portrait>, Failure> {
-    let scenes: Vec<AttractorSettings<'_>> = studies
-        .in_parallel(|(_, study)| within(STEPS_OF_A_SEARCH, || settings(study.belt())))
-        .collect::<Result<_, Failure>>()?;
-    let chunks: Vec<_> = starts.states().chunks(CHUNK).collect();
-    let tasks: Vec<(usize, usize)> = (0..scenes.len())
-        .flat_map(|value| (0..chunks.len()).map(move |chunk| (value, chunk)))
-        .collect();
-    let done: Vec<Vec<Result<Settled, Stalled>>> = tasks
-        .in_parallel(|&(value, chunk)| {
+impl BasinsPlan<'_> {
+    /// The portrait of each value. Parts of the starts go to any free thread; the outcome of a run is independent of all others.
+    fn portraits(&self, running: Running<'_>) -> Result<Vec<Portrait>, Failure> {
+        let settings: Vec<Option<AttractorSettings<'_>>> = self
+            .scenes
+            .in_parallel(|scene| {
+                // Without a common period no section judges: the runs say so.
+                let belt = scene.mass.as_ref()?.belt();
+                within(STEPS_OF_A_SEARCH, || AttractorSettings::new(belt)).ok()
+            })
+            .collect();
+        let together = self.starts.len().div_ceil(LEAST_TASKS).clamp(1, TOGETHER);
+        let parts: Vec<&[[f64; 2]]> = self.starts.chunks(together).collect();
+        let tasks: Vec<(usize, &[[f64; 2]])> = (0..self.scenes.len())
+            .flat_map(|scene| parts.iter().map(move |part| (scene, *part)))
+            .collect();
+        let ends = tasks.in_parallel(|(scene, part)| {
             if running.stop.load(Ordering::Relaxed) {
                 return Err(stopped("basins"));
             }
-            let tolerance = studies[value].1.solver().tolerance;
-            let patience = Patience { tolerance, ..Patience::BASIN };
-            let starts = chunks[chunk];
-            let steps = STEPS_OF_A_SEARCH.saturating_mul(starts.len() as u64);
-            let settled = within(steps, || settle_many(&scenes[value], starts, patience));
-            running.progress.advance(settled.len());
-            Ok(settled)
-        })
-        .collect::<Result<_, Failure>>()?;
-    let whole = |value: usize| done[value * chunks.len()..(value + 1) * chunks.len()].concat();
-    let numbered: Vec<(usize, &AttractorSettings<'_>)> = scenes.iter().enumerate().collect();
-    numbered
-        .in_parallel(|&(place, settings)| {
-            let gather = || gather(settings, &whole(place));
-            let gathered = within(STEPS_OF_MANY_SEARCHES, gather).map_err(failed)?;
-            let (value, study) = &studies[place];
-            Ok(Portrait::new(*value, study.scales(), settings, starts, gathered))
-        })
-        .collect()
-}
-
-impl Portrait {
-    fn new(
-        value: Option<f64>,
-        scales: Option<Scales>,
-        settings: &AttractorSettings<'_>,
-        starts: &Starts,
-        gathered: Gathered,
-    ) -> Self {
-        let layout = starts.layout();
-        let inside = |holds: &dyn Fn(&BasinLabel) -> bool| -> Vec<bool> {
-            gathered.labels.iter().map(holds).collect()
-        };
-        let shares = (0..gathered.basins.len())
-            .map(|place| {
-                Share::of(layout, &inside(&|label| *label == BasinLabel::Attractor(place)))
+            let ends = self.ends(&self.scenes[*scene], settings[*scene].as_ref(), part);
+            running.progress.advance(part.len());
+            Ok(ends)
+        });
+        let mut ends = ends.collect::<Result<Vec<_>, Failure>>()?.into_iter();
+        let each: Vec<(&Scene, Option<&AttractorSettings<'_>>, Vec<PartEnds>)> = self
+            .scenes
+            .iter()
+            .zip(&settings)
+            .map(|(scene, settings)| {
+                (scene, settings.as_ref(), ends.by_ref().take(parts.len()).collect())
             })
             .collect();
-        let open = inside(&|label| !matches!(label, BasinLabel::Attractor(_)));
-        let ends_quiet = |label: &BasinLabel| match label {
-            BasinLabel::Attractor(place) => gathered.basins[*place].attractor.quiet,
-            BasinLabel::Unsettled(_) | BasinLabel::Stalled(_) => false,
+        each.in_parallel(|(scene, settings, ends)| self.portrait(scene, *settings, ends)).collect()
+    }
+
+    /// Where some starts of one value end.
+    fn ends(
+        &self,
+        scene: &Scene,
+        settings: Option<&AttractorSettings<'_>>,
+        part: &[[f64; 2]],
+    ) -> PartEnds {
+        let states = part.iter().map(|values| {
+            let mut state = scene.begun.clone();
+            for (place, value) in self.places.iter().zip(values) {
+                state[*place] = *value;
+            }
+            state
+        });
+        let states: Vec<Vec<f64>> = states.collect();
+        if let (Some(mass), Some(settings)) = (&scene.mass, settings) {
+            let starts = states.iter().map(|state| {
+                let (displacement, velocity) = mass.of_state(state);
+                Start { time: 0.0, displacement, velocity }
+            });
+            let starts: Vec<Start> = starts.collect();
+            let steps = STEPS_OF_A_SEARCH.saturating_mul(starts.len() as u64);
+            let settled = within(steps, || settle_many(settings, &starts, Patience::BASIN));
+            return PartEnds::Settled(settled);
+        }
+        PartEnds::Each(ends_of_runs(scene.study.system(), &scene.study.observe(), &states))
+    }
+
+    /// The starts of one value grouped by motion.
+    fn portrait(
+        &self,
+        scene: &Scene,
+        settings: Option<&AttractorSettings<'_>>,
+        parts: &[PartEnds],
+    ) -> Result<Portrait, Failure> {
+        let mut settled: Vec<Result<Settled, Stalled>> = Vec::new();
+        let mut each: Vec<Result<EndOfRun, String>> = Vec::new();
+        for part in parts {
+            match part {
+                PartEnds::Settled(part) => settled.extend(part.iter().copied()),
+                PartEnds::Each(part) => each.extend(part.iter().cloned()),
+            }
+        }
+        let system = scene.study.system();
+        let grouped = match (&scene.mass, settings) {
+            (Some(mass), Some(settings)) => of_one_mass((&scene.study, mass), settings, &settled)?,
+            _ => Grouped::of(system, each),
         };
-        let known = open.contains(&false);
-        let quiet = known.then(|| Share::between(layout, &inside(&ends_quiet), &open));
-        let unknown_share = Share::of(layout, &open);
-        Self {
-            value,
-            scales,
-            period: settings.section.period,
-            in_band: settings.reaches_the_band(),
-            local: settings.base.as_ref().map(|base| base.verdict).map_err(unknown),
-            shares,
-            quiet,
-            unknown: unknown_share,
-            gathered,
+        Ok(grouped.portrait(scene.value, system, self.layout))
+    }
+}
+
+/// Starts grouped by motion.
+#[derive(Default)]
+struct Grouped {
+    /// The motions, with the most periods that a start took.
+    motions: Vec<(SystemAttractor, u32)>,
+    /// The motion of each start.
+    ends: Vec<Option<usize>>,
+    /// Why outcomes are unknown, each with its number of starts.
+    reasons: Vec<(String, usize)>,
+}
+
+/// Runs of one mass grouped by the sections of their attractors, each of which is measured once.
+fn of_one_mass(
+    (study, mass): (&SystemStudy, &OneMass),
+    settings: &AttractorSettings<'_>,
+    settled: &[Result<Settled, Stalled>],
+) -> Result<Grouped, Failure> {
+    let gathered = within(STEPS_OF_MANY_SEARCHES, || gather(settings, settled)).map_err(stalled)?;
+    let periods = |basin: usize| {
+        let mine = gathered.labels.iter().zip(settled).filter_map(|(label, run)| {
+            let is_mine = *label == BasinLabel::Attractor(basin);
+            run.as_ref().ok().filter(|_| is_mine).map(|run| run.periods)
+        });
+        u32::try_from(mine.max().unwrap_or(0)).unwrap_or(u32::MAX)
+    };
+    let row = study.observe();
+    let motions = gathered.basins.iter().enumerate().map(|(place, basin)| {
+        let periods = periods(place);
+        let found = measured_of_one_mass((study.system(), mass), &row, &basin.attractor, periods);
+        let found = found.map_err(|why| Failure::Failed { key: "basins".to_owned(), why })?;
+        Ok((found, periods))
+    });
+    let motions = motions.collect::<Result<Vec<_>, Failure>>()?;
+    let mut grouped = Grouped { motions, ..Grouped::default() };
+    for label in &gathered.labels {
+        let end = match label {
+            BasinLabel::Attractor(place) => Ok(*place),
+            BasinLabel::Unsettled(why) => Err(why.about()),
+            BasinLabel::Stalled(stalled) => Err(stalled.why),
+        };
+        grouped.add(end.map_err(str::to_owned));
+    }
+    Ok(grouped)
+}
+
+impl Grouped {
+    /// Ends of runs, of which the same motions are one.
+    fn of(system: &System, found: Vec<Result<EndOfRun, String>>) -> Self {
+        let mut grouped = Self::default();
+        for end in found {
+            let end = end.map(|EndOfRun { attractor, periods }| {
+                let motions = &mut grouped.motions;
+                let place = motions.iter().position(|(known, _)| attractor.is(known, system));
+                let place = place.unwrap_or_else(|| {
+                    motions.push((attractor, 0));
+                    motions.len() - 1
+                });
+                motions[place].1 = motions[place].1.max(periods);
+                place
+            });
+            grouped.add(end);
+        }
+        grouped
+    }
+
+    /// Adds the end of a start: the place of its motion, or why it is unknown.
+    fn add(&mut self, end: Result<usize, String>) {
+        match end {
+            Ok(place) => self.ends.push(Some(place)),
+            Err(why) => {
+                self.ends.push(None);
+                match self.reasons.iter_mut().find(|(known, _)| *known == why) {
+                    Some((_, count)) => *count += 1,
+                    None => self.reasons.push((why, 1)),
+                }
+            }
         }
     }
 
+    /// The portrait of one value.
+    fn portrait(self, value: Option<f64>, system: &System, layout: StartLayout) -> Portrait {
+        let Self { motions, ends, reasons } = self;
+        let count = |place: usize| ends.iter().filter(|end| **end == Some(place)).count();
+        let mut order: Vec<usize> = (0..motions.len()).collect();
+        order.sort_by_key(|place| (!motions[*place].0.quiet, usize::MAX - count(*place)));
+        let rank = |place: usize| order.iter().position(|other| *other == place);
+        let ends: Vec<Option<usize>> = ends.iter().map(|end| end.and_then(rank)).collect();
+        let inside = |holds: &dyn Fn(usize) -> bool| -> Vec<bool> {
+            ends.iter().map(|end| end.is_some_and(holds)).collect()
+        };
+        let basins: Vec<FoundBasin> = order
+            .iter()
+            .enumerate()
+            .map(|(number, place)| FoundBasin {
+                attractor: motions[*place].0.clone(),
+                share: Share::of(layout, &inside(&|end| end == number)),
+                periods: motions[*place].1,
+            })
+            .collect();
+        let open: Vec<bool> = ends.iter().map(Option::is_none).collect();
+        let ends_quiet = inside(&|end| basins[end].attractor.quiet);
+        let quiet = open.contains(&false).then(|| Share::between(layout, &ends_quiet, &open));
+        let unknown = Share::of(layout, &open);
+        Portrait {
+            value,
+            is_dithered: system.is_dithered(),
+            in_band: system.is_dithered() && dither_reaches_the_band(system),
+            local: local_verdict(system),
+            basins,
+            ends,
+            quiet,
+            unknown,
+            reasons,
+        }
+    }
+}
+
+impl Portrait {
     /// Whether at least one start is known not to fall quiet.
     fn leaves(&self) -> bool {
-        self.quiet
-            .is_some_and(|share| share.starts + self.unknown.starts < self.gathered.labels.len())
+        self.quiet.is_some_and(|share| share.starts + self.unknown.starts < self.ends.len())
     }
 }

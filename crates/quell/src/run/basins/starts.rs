@@ -1,11 +1,9 @@
-//! The window of states and its starts.
+//! The layout of the starts in a window of two numbers of the state.
 
-use quell_dynamics::simulation::Start;
-use quell_model::Belt;
 use serde_json::{Value as Json, json};
 
 use super::super::evenly;
-use crate::complaint::{Complaint, Complaints};
+use crate::complaint::Complaint;
 
 /// Largest number of starts of one portrait.
 pub const MOST_STARTS: usize = 10_000_000;
@@ -13,11 +11,11 @@ pub const MOST_STARTS: usize = 10_000_000;
 /// Layout of the starts in the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartLayout {
-    /// A grid from edge to edge, displacement running fastest.
+    /// A grid from edge to edge, the first number running fastest.
     Grid {
-        /// Number of displacements.
+        /// Number of values of the first number.
         columns: usize,
-        /// Number of velocities.
+        /// Number of values of the second.
         rows: usize,
     },
     /// States drawn uniformly and independently.
@@ -27,101 +25,6 @@ pub enum StartLayout {
         /// Seed of the sample: the same seed gives the same states.
         seed: u64,
     },
-}
-
-impl Default for StartLayout {
-    fn default() -> Self {
-        Self::Grid { columns: 41, rows: 31 }
-    }
-}
-
-/// Ranges of displacement and velocity of the starts, in the numbers of the equations.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
-    /// Least and largest displacement x, a length.
-    pub displacement: (f64, f64),
-    /// Least and largest velocity x′, a length per τ.
-    pub velocity: (f64, f64),
-}
-
-impl Window {
-    /// The window of a belt: centred on steady sliding, with a reach in x and x′ of the static friction force plus
-    /// 1.5 times the belt velocity.
-    pub fn of(belt: &Belt) -> Self {
-        let hold = belt.friction().static_coefficient() * belt.normal_load();
-        let reach = 1.5f64.mul_add(belt.belt_velocity(), hold);
-        let centre = belt.steady_sliding();
-        Self { displacement: (centre - reach, centre + reach), velocity: (-reach, reach) }
-    }
-}
-
-/// The window with its starts.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Starts {
-    window: Window,
-    layout: StartLayout,
-    states: Vec<Start>,
-}
-
-impl Starts {
-    /// The starts of a belt's window.
-    ///
-    /// # Errors
-    /// Every complaint about the window and the layout.
-    pub fn new(
-        belt: &Belt,
-        displacement: Option<(f64, f64)>,
-        velocity: Option<(f64, f64)>,
-        layout: StartLayout,
-    ) -> Result<Self, Complaints> {
-        let mut complaints = Vec::new();
-        for (option, range) in [("--displacement", displacement), ("--velocity", velocity)] {
-            if let Some((from, to)) = range
-                && !(from.is_finite() && to.is_finite() && from < to)
-            {
-                let allowed = "FROM:TO, two finite numbers, the first below the second";
-                complaints.push(Complaint::option(option, format!("{from}:{to}"), allowed));
-            }
-        }
-        complaints.extend(layout.refused("41x31"));
-        if !complaints.is_empty() {
-            return Err(complaints.into());
-        }
-        let whole = Window::of(belt);
-        let window = Window {
-            displacement: displacement.unwrap_or(whole.displacement),
-            velocity: velocity.unwrap_or(whole.velocity),
-        };
-        Ok(Self { window, layout, states: states(window, layout) })
-    }
-
-    /// The window.
-    pub fn window(&self) -> Window {
-        self.window
-    }
-
-    /// The layout.
-    pub fn layout(&self) -> StartLayout {
-        self.layout
-    }
-
-    /// The states, all at τ = 0.
-    pub fn states(&self) -> &[Start] {
-        &self.states
-    }
-
-    /// The displacements and the velocities of a grid.
-    pub fn axes(&self) -> Option<(Vec<f64>, Vec<f64>)> {
-        let [across, upwards] =
-            self.layout.axes([self.window.displacement, self.window.velocity])?;
-        Some((across, upwards))
-    }
-}
-
-fn states(window: Window, layout: StartLayout) -> Vec<Start> {
-    let places = layout.places([window.displacement, window.velocity]);
-    let start = |[displacement, velocity]: [f64; 2]| Start { time: 0.0, displacement, velocity };
-    places.into_iter().map(start).collect()
 }
 
 impl StartLayout {
@@ -228,10 +131,8 @@ mod tests {
     #[test]
     fn a_grid_reaches_its_edges() {
         assert_eq!(evenly((-1.0, 1.5), 11)[10], 1.5);
-        let window = Window { displacement: (0.0, 1.0), velocity: (2.0, 3.0) };
-        let states = states(window, StartLayout::Grid { columns: 3, rows: 2 });
-        let pairs: Vec<(f64, f64)> =
-            states.iter().map(|start| (start.displacement, start.velocity)).collect();
-        assert_eq!(pairs, [(0.0, 2.0), (0.5, 2.0), (1.0, 2.0), (0.0, 3.0), (0.5, 3.0), (1.0, 3.0)]);
+        let places = StartLayout::Grid { columns: 3, rows: 2 }.places([(0.0, 1.0), (2.0, 3.0)]);
+        let row = |v: f64| [[0.0, v], [0.5, v], [1.0, v]];
+        assert_eq!(places, [row(2.0), row(3.0)].concat());
     }
 }

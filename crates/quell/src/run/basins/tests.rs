@@ -1,44 +1,56 @@
 //! Answers where the outcome of starts is unknown.
 
-use quell_dynamics::attractor::{BasinsOfAttraction as Gathered, Unsettled};
-
 use super::*;
+use crate::study::{Study, SystemStudy};
 
-const STUDY: &str = "schema = 1\n[belt]\ndamping_ratio = 0.1\nnormal_load = 1\nbelt_velocity = 1\n\
+const STUDY: &str = "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.2]\nstiffness = [1.0]\n\
+    [[contact]]\nname = \"belt\"\ntangent = { x = 1.0 }\nnormal_load = 1.0\nbelt_velocity = 1.0\n\
     [friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 0.2\n";
+
+fn study() -> SystemStudy {
+    Study::parse(STUDY, &[]).expect("valid").system().expect("a system")
+}
 
 /// If no outcome is known, nothing is stated about whether starts reach the base response.
 #[test]
 fn unknown_ends_reach_nothing() {
-    let labels = vec![BasinLabel::Unsettled(Unsettled::Moving); 3];
-    let gathered = Gathered { basins: Vec::new(), labels };
-    let share = Share::of(StartLayout::Sample { count: 3, seed: 1 }, &[true; 3]);
-    let mut portrait = Portrait {
+    let layout = StartLayout::Sample { count: 3, seed: 1 };
+    let reasons = vec![("it moves".to_owned(), 3)];
+    let portrait = Portrait {
         value: None,
-        period: 1.0,
-        scales: None,
+        is_dithered: true,
         in_band: false,
-        local: Ok(OrbitVerdict::Stable),
-        gathered,
-        shares: Vec::new(),
+        local: Ok("stable"),
+        basins: Vec::new(),
+        ends: vec![None; 3],
         quiet: None,
-        unknown: share,
+        unknown: Share::of(layout, &[true; 3]),
+        reasons,
     };
+    let at = |value: Option<f64>| Portrait { value, ..portrait.clone() };
+    let range =
+        Range { parameter: "contact.belt.belt_velocity".into(), from: 1.0, to: 2.0, points: 2 };
+    let found = |over: Option<Range>, portraits: Vec<Portrait>| Basins {
+        names: ["x", "velocity.x"].map(str::to_owned),
+        places: [0, 1],
+        windows: [(0.0, 1.0); 2],
+        layout,
+        starts: layout.places([(0.0, 1.0); 2]),
+        start: "from rest".to_owned(),
+        over,
+        portraits,
+    };
+    let study = study();
     assert_eq!(
-        portrait.sentence(),
+        found(None, vec![at(None)]).sentence(&study),
         "The outcome of 3 starts is unknown. The base response is stable."
     );
-    let at = |value: f64| Portrait { value: Some(value), ..portrait.clone() };
-    let range = Range { parameter: "belt.belt_velocity".into(), from: 1.0, to: 2.0, points: 2 };
-    let study = BeltStudy::parse(STUDY, &[]).expect("valid");
-    let varied = Varied::new(&study, "--over", &range).expect("valid");
-    let starts = Starts::new(study.belt(), None, None, StartLayout::Sample { count: 3, seed: 1 });
-    let found = Basins {
-        starts: starts.expect("valid"),
-        varied: Some(varied),
-        portraits: vec![at(1.0), at(2.0)],
-        slip: SlipMet::default(),
-    };
+    let unknown = Portrait { local: Err("it was not found".to_owned()), ..portrait.clone() };
+    assert_eq!(
+        found(None, vec![unknown]).sentence(&study),
+        "The outcome of 3 starts is unknown. It was not found."
+    );
+    let found = found(Some(range), vec![at(Some(1.0)), at(Some(2.0))]);
     let sentence = found.sentence(&study);
     assert!(sentence.ends_with(", the outcome of every start is unknown."), "{sentence}");
     let json = found.json(&study);
@@ -47,8 +59,6 @@ fn unknown_ends_reach_nothing() {
         assert!(json["why"][format!("portraits[0].{name}")].is_string(), "{json}");
     }
     assert!(!found.dataset(&study).csv().contains("NaN"));
-    portrait.local = Err("it was not found".to_owned());
-    assert_eq!(portrait.sentence(), "The outcome of 3 starts is unknown. It was not found.");
 }
 
 /// Starts of unknown outcome count only towards the upper bound.

@@ -5,11 +5,8 @@
 //! where responses coexist it ends at another value than it begins at. The thresholds are those of the base response at constant
 //! values, of a system without dither those of steady sliding, over the values that the ramp passes. Other numbers are those of the
 //! moment of the largest value.
-//!
-//! Belts and systems run in their own engines ([`of_belt`], [`of_system`]); what follows from a run is the same.
 
-mod belt;
-mod system;
+mod courses;
 
 use std::fmt::Write as _;
 
@@ -25,11 +22,7 @@ use crate::complaint::{Complaint, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 
-pub use belt::of_belt;
-pub use system::of_system;
-
-/// Minimum number of continuation steps over the values of the ramp.
-const STEPS: u32 = 40;
+pub use courses::run;
 
 /// Thresholds are searched from this share of the largest value on: there is no sliding at rest.
 const LEAST: f64 = 1e-3;
@@ -176,7 +169,7 @@ pub struct RampedMotion {
     pub times: Vec<f64>,
     /// The displacement: of a belt x, of a system its observed row.
     pub displacement: Vec<f64>,
-    /// The velocity, of a belt.
+    /// The observed velocity; `None` of first-order equations.
     pub velocity: Option<Vec<f64>>,
     /// The natural period.
     pub period: f64,

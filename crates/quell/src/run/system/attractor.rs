@@ -9,6 +9,7 @@ use quell_dynamics::motion::orbit::{
     free_cycle, settled, settled_many,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
+use quell_dynamics::orbit::NoOrbit;
 use quell_dynamics::response::is_above_the_band;
 use quell_dynamics::simulation::{Stalled, Start};
 use quell_linear::linearised::Linearised;
@@ -22,7 +23,6 @@ use super::cycle_samples::CycleSamples;
 use super::in_units;
 use super::passing::nearest_distance;
 use crate::fields::Fields;
-use crate::run::attractor::unknown;
 use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural};
 
@@ -116,7 +116,7 @@ pub fn end_of_run(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRu
 }
 
 /// [`end_of_run`] of several starts; those under dither go on side by side.
-pub(super) fn ends_of_runs(
+pub(in crate::run) fn ends_of_runs(
     system: &System,
     row: &[f64],
     starts: &[Vec<f64>],
@@ -166,7 +166,22 @@ fn ends_of_one_mass(
     settled.into_iter().map(end).collect()
 }
 
-/// An attractor of one mass as that of its system; `tried`: the periods over which it was followed.
+/// An attractor of one mass, with dither or without, as that of its system; `tried`: the periods over which it was followed.
+pub(in crate::run) fn measured_of_one_mass(
+    (system, mass): (&System, &OneMass),
+    row: &[f64],
+    found: &Attractor,
+    tried: u32,
+) -> Result<SystemAttractor, String> {
+    if system.is_dithered() {
+        return of_one_mass((system, mass), row, found, tried);
+    }
+    // Without dither its section has no period: the limit cycle is closed from a state of it.
+    let state = mass.state(found.state.displacement, found.state.velocity);
+    Ok(on_free_motion(&system.undithered(), row, &state)?.attractor)
+}
+
+/// An attractor of one mass under dither as that of its system.
 fn of_one_mass(
     (system, mass): (&System, &OneMass),
     row: &[f64],
@@ -238,6 +253,23 @@ fn is_base(system: &System, state: &[f64]) -> Option<bool> {
     let size = state.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let off = base.state.iter().zip(state).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
     Some(off <= SAME * size)
+}
+
+/// Why the base response is unknown, as text.
+fn unknown(why: &NoOrbit) -> String {
+    match why {
+        NoOrbit::Ends { share } => {
+            format!(
+                "the base response ends at {} % of the dither's amplitude",
+                digits(100.0 * share)
+            )
+        }
+        NoOrbit::LostOnTheWay { share } => format!(
+            "the base response could not be followed beyond {} % of the dither's amplitude",
+            digits(100.0 * share)
+        ),
+        why => format!("the base response was not found: {why}"),
+    }
 }
 
 /// Verdict on the base response of a dithered system, or on steady sliding without dither.

@@ -2,8 +2,6 @@
 
 pub mod actuator;
 pub mod attractor;
-pub mod basins;
-pub mod basins_answer;
 pub mod check;
 pub mod cycle_samples;
 pub mod design;

@@ -1,4 +1,5 @@
-//! The ramp of a system: of the velocity of a surface, the load of a contact, or the amplitude of a dither.
+//! What a ramp changes: the velocity of a surface, the load of a contact, or the amplitude of a dither; its run, and the thresholds over
+//! the values that it passes.
 
 use std::f64::consts::TAU;
 
@@ -11,17 +12,18 @@ use quell_model::units::Quantity;
 use super::{Ramp, RampCourse, RampThreshold, RampedMotion};
 use crate::complaint::Failure;
 use crate::run::belt_system;
+use crate::run::system::attractor::rate_of;
 use crate::run::system::has_equations;
 use crate::run::system::simulate::{self, MotionRequest, natural_period};
 use crate::run::system::tracked;
 use crate::run::thresholds::{self, ThresholdsRequest, by_eigenvalues, side};
 use crate::study::SystemStudy;
 
-/// Runs the ramp of a system from t = 0 to the last knot.
+/// Runs the ramp of a study from t = 0 to the last knot.
 ///
 /// # Errors
 /// A complaint about a study that is no ramp; as [`simulate::run`].
-pub fn of_system(study: &SystemStudy) -> Result<Ramp, Failure> {
+pub fn run(study: &SystemStudy) -> Result<Ramp, Failure> {
     has_equations(study, "bifurcation --ramp")?;
     let ramped = RampCourse::only(courses(study), oscillates(study))?;
     let until = ramped.until();
@@ -35,10 +37,12 @@ pub fn of_system(study: &SystemStudy) -> Result<Ramp, Failure> {
     let row = study.observe();
     let observed = |state: &[f64]| row.iter().zip(state).map(|(r, x)| r * x).sum::<f64>();
     let acting = system.waves().filter(|wave| wave.amplitude != 0.0);
+    let states = states.chunks_exact(system.state_size());
+    let is_mechanical = system.structure.mechanical().is_some();
     let motion = RampedMotion {
         times: times.to_vec(),
-        displacement: states.chunks_exact(system.state_size()).map(observed).collect(),
-        velocity: None,
+        displacement: states.clone().map(observed).collect(),
+        velocity: is_mechanical.then(|| states.map(|state| rate_of(&row, state)).collect()),
         period: natural_period(study, (run.start.time, until)),
         fast: acting.map(Wave::repetition).reduce(f64::min).map(|rate| TAU / rate),
     };
