@@ -1,6 +1,7 @@
 //! Limit cycles without dither, and folds of responses.
 
-use quell_dynamics::attractor::{Reached, orbit_reached, ramped, reached};
+use quell_dynamics::attractor::{Reached, orbit_reached, reached};
+use quell_dynamics::motion::orbit::ramped_motion;
 use quell_dynamics::orbit::cycle::{cycles, free_end};
 use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind, local};
 use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding};
@@ -141,8 +142,11 @@ fn a_ramp_ends_on_the_base_response() {
     let belt = belt::decreasing().with_dither(sine(3.5, 10.0));
     let rest = Start { time: 0.0, displacement: belt.steady_sliding(), velocity: 0.0 };
     let switched = reached(&belt, rest).expect("no stall");
-    let ramp = ramped(&belt, rest, 200.0).expect("a period");
-    let grown = reached(&belt, ramp).expect("no stall");
+    let state = [rest.displacement, rest.velocity];
+    let ramped = |over| ramped_motion(&belt.system(), &state, over).expect("a period");
+    let grown = ramped(200.0);
+    let grown = Start { time: 0.0, displacement: grown[0], velocity: grown[1] };
+    let grown = reached(&belt, grown).expect("no stall");
     assert_eq!((switched, grown), (Reached::Elsewhere, Reached::Base));
-    assert_eq!(ramped(&belt, rest, 0.0), Ok(rest));
+    assert_eq!(ramped(0.0), state);
 }

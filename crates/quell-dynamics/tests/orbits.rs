@@ -1,10 +1,11 @@
 //! Periodic responses against identities, differences and known thresholds.
 
-use quell_dynamics::attractor::{Reached, Switches, orbit_reached, switches};
+use quell_dynamics::attractor::orbit_reached;
+use quell_dynamics::motion::orbit::{RunOutcome, RunSwitches, StartOfRun, VariedRun, values_tried};
 use quell_dynamics::orbit::threshold::{Threshold, ThresholdKind, local_thresholds};
-use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding};
+use quell_dynamics::orbit::{Orbit, OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
-use quell_model::{Belt, Dither, LawKind, Waveform};
+use quell_model::{Belt, Dither, LawKind, System, Waveform};
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{chapter_4, decreasing_under, dissertation, over_amplitudes};
 use quell_zoo::dither::{normal, tangential};
@@ -144,11 +145,11 @@ fn thresholds_from_rest() {
         let shifted = |dither: &Dither| Dither { phase: phase * quarter, ..dither.clone() };
         let belt = belt.with_dithers(belt.dithers().iter().map(shifted).collect());
         let range = (expected - 0.11, expected + 0.09);
-        let found = switches(&over_amplitudes(&belt), range, 2, 2e-4, |_| Ok(Some(Start::REST)))
-            .expect("runs");
-        assert_eq!((found.first, found.changes.len()), (Reached::Base, 1), "{found:?}");
-        let change = found.changes[0];
-        assert_eq!(change.becomes, Reached::Elsewhere);
+        let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0]).expect("valid").system());
+        let found = switches(&at, &|_, _| Ok(vec![0.0, 0.0]), range, 2);
+        assert_eq!(found.first.is_quiet(), Some(true), "{found:?}");
+        let [change] = &found.changes[..] else { panic!("{found:?}") };
+        assert_eq!(change.becomes, RunOutcome::Vibrating);
         assert!((change.value - expected).abs() < 5e-3, "{phase}: {}", change.value);
     }
 }
@@ -166,17 +167,25 @@ fn a_continuation_run_ends_at_the_end_of_its_window() {
     }
 }
 
-/// Where a start cannot be computed the end is unknown; where no squealing start exists, nothing needs to be quenched.
+/// Where a start cannot be computed the end is unknown.
 #[test]
 fn a_start_that_cannot_be_computed_is_not_quenched() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
-    let ends = |start: Result<Option<Start>, NoOrbit>| {
-        switches(&over_amplitudes(&belt), (2.0, 3.0), 1, 1e-3, |_| start).expect("valid")
-    };
-    let why = NoOrbit::NoPeriod { most: 3 };
-    let unknown = vec![(2.0, why), (3.0, why)];
-    let (first, changes) = (Reached::Unknown, Vec::new());
-    assert_eq!(ends(Err(why)), Switches { first, changes, unknown });
-    let (first, changes, unknown) = (Reached::Base, Vec::new(), Vec::new());
-    assert_eq!(ends(Ok(None)), Switches { first, changes, unknown });
+    let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0]).expect("valid").system());
+    let found = switches(&at, &|_, _| Err("no start".to_owned()), (2.0, 3.0), 1);
+    assert_eq!((found.first.is_quiet(), found.changes.len()), (None, 0));
+    assert_eq!(found.unknown, [2.0, 3.0].map(|value| (value, "no start".to_owned())));
+}
+
+/// The changes of runs over a parameter, tried at equal steps.
+pub(crate) fn switches(
+    at: &(dyn Fn(&[f64]) -> Result<System, String> + Sync),
+    start: &StartOfRun<'_>,
+    window: (f64, f64),
+    steps: u32,
+) -> RunSwitches {
+    let run = VariedRun { start, ramp: 0.0, at, most_steps: u64::MAX };
+    let outcomes: Vec<_> =
+        values_tried(window, steps).map(|value| (value, run.outcome(value))).collect();
+    RunSwitches::of(&outcomes, |pairs| pairs.iter().map(|[a, b]| run.change(*a, *b)).collect())
 }

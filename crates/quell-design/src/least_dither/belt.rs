@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use quell_dynamics::attractor::{Reached, SWITCH_CLOSENESS, switches};
+use quell_dynamics::motion::orbit::{RunOutcome, VariedRun};
 use quell_dynamics::orbit::threshold::{NoThresholds, local};
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
 use quell_dynamics::response::BAND_END;
-use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{
     AveragedVerdict, AveragingError, AveragingOptions, Becomes, criterion,
@@ -19,6 +18,7 @@ use quell_model::{Belt, Direction, Dither, System};
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
 use super::response::{ResponseSize, linear_response, loss_on, response_on};
+use super::system::{STEPS_OF_A_RUN, quiet_changes};
 use super::{DesignStart, DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 use crate::actuator::{Actuator, ActuatorDemand};
 
@@ -81,34 +81,37 @@ impl BeltPlant<'_> {
         Ok(answer(&point))
     }
 
-    /// The initial state of the runs that must end quiet; `None` where there is nothing to quench.
-    fn initial(&self, belt: &Belt) -> Result<Option<Start>, quell_dynamics::orbit::NoOrbit> {
+    /// An answer about the runs from the start over the amplitude; `None` where nothing squeals without dither, so that every run is quiet.
+    fn about_runs<T>(
+        &self,
+        belt: &Belt,
+        answer: impl FnOnce(&VariedRun<'_>) -> Result<T, String>,
+    ) -> Result<Option<T>, String> {
         let state = match self.start {
             DesignStart::Local => InitialState::Sliding,
             DesignStart::Rest => InitialState::Rest,
             DesignStart::Squeal => InitialState::Squealing,
         };
-        match state.resolve(belt) {
-            Ok(start) => Ok(Some(start)),
-            Err(NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest) => Ok(None),
-            Err(NoSquealingStart::Stalled(why)) => {
-                Err(quell_dynamics::orbit::NoOrbit::Stalled(why))
+        let state = match state.resolve(belt) {
+            Ok(start) => vec![start.displacement, start.velocity],
+            Err(NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest) => {
+                return Ok(None);
             }
-        }
+            Err(NoSquealingStart::Stalled(why)) => return Err(why.to_string()),
+        };
+        let at = |values: &[f64]| {
+            let dithered = belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
+            Ok(dithered.system())
+        };
+        let start = |_: f64, _: &System| Ok(state.clone());
+        let run = VariedRun { start: &start, ramp: 0.0, at: &at, most_steps: STEPS_OF_A_RUN };
+        answer(&run).map(Some)
     }
 
-    fn by_runs(&self, belt: &Belt, (from, to): (f64, f64)) -> Result<QuietAmplitudes, String> {
-        let initial = |belt: &Belt| self.initial(belt);
-        let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
-        let found = switches(&at, (from, to), TRIED, SWITCH_CLOSENESS, initial)
-            .map_err(|why| why.to_string())?;
-        let quiet = |reached: Reached| matches!(reached, Reached::Base | Reached::Forced);
-        // The ends that have been seen to be quiet.
-        let changes = found.changes.iter().map(|change| {
-            let becomes = quiet(change.becomes);
-            (change.value + if becomes { change.error } else { -change.error }, becomes)
-        });
-        Ok(QuietAmplitudes::of_changes((from, to), quiet(found.first), changes))
+    fn by_runs(&self, belt: &Belt, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
+        let found = self.about_runs(belt, |run| quiet_changes(run, range, TRIED))?;
+        let (first, changes) = found.unwrap_or((true, Vec::new()));
+        Ok(QuietAmplitudes::of_changes(range, first, changes))
     }
 
     fn by_multipliers(belt: &Belt, (from, to): (f64, f64)) -> Result<QuietAmplitudes, String> {
@@ -191,8 +194,11 @@ impl Plant for BeltPlant<'_> {
         let quiet = match self.start {
             DesignStart::Local => stable,
             DesignStart::Rest | DesignStart::Squeal => {
-                let width = (amplitude, amplitude * (1.0 + 1e-6));
-                stable && self.by_runs(&self.at(at)?, width)?.contains(amplitude)
+                let outcome = |run: &VariedRun<'_>| match run.outcome(amplitude) {
+                    RunOutcome::Unknown(why) => Err(why),
+                    known => Ok(known.is_quiet() == Some(true)),
+                };
+                stable && self.about_runs(&self.at(at)?, outcome)?.unwrap_or(true)
             }
         };
         Ok(ExactVerdict { quiet, multiplier: orbit.radius(), growth_rate: None })

@@ -1,9 +1,8 @@
 //! Any linear structure with friction contacts as one whose dither is designed.
 
-use quell_dynamics::attractor::SWITCH_CLOSENESS;
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoMotionOrbit, RunOutcome, VariedRun, base_motion, motion_thresholds,
-    squealing_state, values_tried,
+    MotionOrbit, NoMotionOrbit, RunOutcome, SWITCH_CLOSENESS, VariedRun, base_motion,
+    motion_thresholds, squealing_state, values_tried,
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{BAND_END, vibration_frequency};
@@ -34,7 +33,7 @@ const TRIED_WITHIN: f64 = 1.0 / 16.0;
 const LEAST_TRIED: u32 = 2;
 
 /// Most integration steps of one run from a start and of what decides where it ends.
-const STEPS_OF_A_RUN: u64 = 20_000_000;
+pub(super) const STEPS_OF_A_RUN: u64 = 20_000_000;
 
 /// Steps by which the dither grows from zero to a verified base response.
 const GROWTH_STEPS: u32 = 8;
@@ -151,9 +150,22 @@ fn in_step(
     let steps = (((high - low) / within).ceil() as u32).max(LEAST_TRIED);
     let begin = (low * (1.0 + MARGIN)).max(low + MARGIN * within).min(0.5 * (low + high));
     let end = high - MARGIN * (high - begin) / f64::from(steps);
+    let (first, changes) = quiet_changes(run, (begin, end), steps)?;
+    Ok(QuietAmplitudes::of_changes((low, high), first, changes).intervals().to_vec())
+}
+
+/// Whether the run at the first of some equally spaced amplitudes ends quiet, and the changes: the end that has been seen to be quiet, and
+/// whether it becomes so. A run that does not settle is not known to be quiet.
+///
+/// # Errors
+/// Why the outcome of a run is unknown, where none is known to be quiet.
+pub(super) fn quiet_changes(
+    run: &VariedRun<'_>,
+    range: (f64, f64),
+    steps: u32,
+) -> Result<(bool, Vec<(f64, bool)>), String> {
     let outcomes: Vec<(f64, RunOutcome)> =
-        values_tried((begin, end), steps).map(|value| (value, run.outcome(value))).collect();
-    // A run that does not settle is not known to be quiet.
+        values_tried(range, steps).map(|value| (value, run.outcome(value))).collect();
     let quiet = |outcome: &RunOutcome| outcome.is_quiet() == Some(true);
     if !outcomes.iter().any(|(_, outcome)| quiet(outcome))
         && let Some((amplitude, RunOutcome::Unknown(why))) =
@@ -170,11 +182,10 @@ fn in_step(
             let middle = 0.5 * (loud + still);
             *(if quiet(&run.outcome(middle)) { &mut still } else { &mut loud }) = middle;
         }
-        // The end that has been seen to be quiet.
         (still, becomes)
     });
     let first = outcomes.first().is_some_and(|(_, outcome)| quiet(outcome));
-    Ok(QuietAmplitudes::of_changes((low, high), first, changes).intervals().to_vec())
+    Ok((first, changes.collect()))
 }
 
 /// Whether steady sliding is stable without dither, so that no limit cycle is needed for a design.

@@ -22,26 +22,26 @@
 //! | `settle` | runs side by side, until each has settled |
 //! | `measure` | classification of the attractor of a settled run |
 //! | `basin` | which starts lead to the same attractor |
-//! | `switches` | values of a parameter at which runs from a start begin or stop settling on the base response |
+//! | `reached` | whether a run from a start ends quiet |
 
 mod average;
 mod base_response;
 mod basin;
 mod block_observer;
 mod measure;
+mod reached;
 mod rotation;
 mod section;
 mod settings;
 mod settle;
-mod switches;
 
 pub use crate::orbit::Unsettled;
 pub use base_response::BaseResponse;
 pub use basin::{Basin, BasinLabel, BasinsOfAttraction, gather};
 pub use measure::{Attractor, AttractorKind, measure, orbit_reached};
+pub(crate) use reached::reached_at;
+pub use reached::{Reached, reached};
 pub use rotation::{Ratio, Rotation};
 pub use section::StroboscopicSection;
 pub use settings::AttractorSettings;
 pub use settle::{Patience, SettleOutcome, Settled, settle, settle_many};
-pub(crate) use switches::reached_at;
-pub use switches::{Reached, SWITCH_CLOSENESS, Switch, Switches, ramped, reached, switches};

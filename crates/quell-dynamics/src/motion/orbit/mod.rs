@@ -50,7 +50,9 @@ pub use periodic::{
 pub use ramp::ramped_motion;
 pub use sensitivity::motion_sensitivity;
 pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};
-pub use switches::{RunSwitch, RunSwitches, StartOfRun, TriedValue, VariedRun, values_tried};
+pub use switches::{
+    RunSwitch, RunSwitches, SWITCH_CLOSENESS, StartOfRun, TriedValue, VariedRun, values_tried,
+};
 pub use threshold_curve::{
     CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
 };

@@ -7,7 +7,7 @@ use super::family::NoImage;
 use super::periodic::{NoMotionOrbit, period_of};
 
 /// The state of a run after its dither has grown from zero over a time `over`, in equal steps, one per common period (at least
-/// one), as for the belt ([`crate::attractor::ramped`]). `over` = 0 means no ramp.
+/// one); the phase of the dither is continuous across steps. `over` = 0 means no ramp.
 ///
 /// # Errors
 /// [`NoMotionOrbit`]: no common period, or the run stopped.

@@ -12,8 +12,8 @@ use crate::orbit::OrbitVerdict;
 use crate::orbit::threshold::ThresholdKind;
 use crate::simulation::within;
 
-/// Relative width of the interval at which halving ends.
-const CLOSENESS: f64 = 1e-5;
+/// Relative width of the interval at which halving ends, in thresholds and designs alike.
+pub const SWITCH_CLOSENESS: f64 = 1e-5;
 
 /// Distance from a threshold, over the step, at which runs confirm it.
 const CONFIRMED: f64 = 1e-3;
@@ -128,7 +128,7 @@ impl VariedRun<'_> {
     ) -> RunSwitch {
         let (mut from, mut to) = (low, high);
         let mut becomes = above.clone();
-        while to - from > CLOSENESS * from.abs().max(to.abs()) {
+        while to - from > SWITCH_CLOSENESS * from.abs().max(to.abs()) {
             let middle = 0.5 * (from + to);
             let found = self.outcome(middle);
             match found.is_quiet() {
