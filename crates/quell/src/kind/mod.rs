@@ -189,7 +189,7 @@ pub trait Verbs: Send + Sync {
     /// Thresholds of one parameter.
     ///
     /// # Errors
-    /// A kind without this verb; as [`thresholds::run`].
+    /// A kind without this verb; as [`crate::run::thresholds::run`].
     fn thresholds(&self, request: &ThresholdsRequest) -> Reply {
         let _ = request;
         Err(self.lacks("thresholds"))
@@ -198,7 +198,7 @@ pub trait Verbs: Send + Sync {
     /// Curves of thresholds in two parameters.
     ///
     /// # Errors
-    /// A kind without this verb; as [`curves::run`].
+    /// A kind without this verb; as [`crate::run::thresholds::curves::run`].
     fn threshold_curves(&self, request: &CurvesRequest) -> Reply {
         let _ = request;
         Err(self.lacks("thresholds"))
