@@ -1,6 +1,9 @@
 //! The band of slow vibration, which contains the self-excited vibration and over which E is measured.
 
+use std::f64::consts::TAU;
+
 use quell_linear::linearised::Linearised;
+use quell_linear::pure_slip::period;
 use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::System;
 use quell_model::profile::Wave;
@@ -22,12 +25,14 @@ pub fn vibration_frequency(system: &System) -> Option<f64> {
 
 /// Whether every spectral line of a motion of this period is above the band of the vibration of a system.
 pub fn is_above_the_band(system: &System, period: f64) -> bool {
-    let lowest = std::f64::consts::TAU / period;
+    let lowest = TAU / period;
     vibration_frequency(system).is_some_and(|vibration| lowest > BAND_END * vibration)
 }
 
-/// Whether a motion with the period of the dither may vibrate in the band itself: a run in step with it is then not quenched.
+/// Whether a motion with the period of the dither, common to all of its waves where there is one, may vibrate in the band itself: a run in
+/// step with it is then not quenched.
 pub fn dither_reaches_the_band(system: &System) -> bool {
-    let lowest = system.waves().map(Wave::repetition).fold(f64::INFINITY, f64::min);
+    let slowest = || system.waves().map(Wave::repetition).fold(f64::INFINITY, f64::min);
+    let lowest = period(system).map_or_else(slowest, |period| TAU / period);
     vibration_frequency(system).is_some_and(|vibration| lowest <= BAND_END * vibration)
 }

@@ -6,6 +6,7 @@ use quell::Study;
 use quell::kind::{system_of, verbs};
 use quell::run::basins::{BasinsRequest, StartLayout, default_plane};
 use quell::run::bifurcation::SweepRequest;
+use quell::run::found_attractor::AttractorRequest;
 use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::ThresholdsRequest;
@@ -279,6 +280,46 @@ fn runs_without_dither_change_where_the_squeal_ends() {
     assert!(squeals(end - 1e-3) && !squeals(end + 1e-3), "{end}");
     let warnings = own["warnings"].to_string();
     assert!(warnings.contains("no squeal was found"), "{warnings}");
+}
+
+/// Next to the unstable limit cycle, which a run from rest passes slowly, `attractor` and `thresholds` know where the run ends; the change
+/// of the exact cycle map lies at 0.8590745.
+#[test]
+fn verbs_agree_next_to_an_unstable_limit_cycle() {
+    let study = belt("decreasing", 1.0, &dither(0.0));
+    let parameter = "belt.belt_velocity".to_owned();
+    let request = ThresholdsRequest {
+        parameter: parameter.clone(),
+        window: (0.85, 0.87),
+        protocols: vec![Protocol::Rest],
+        ..ThresholdsRequest::default()
+    };
+    let found = verbs(&study).thresholds(&request).expect("thresholds").json();
+    let [change] = list(&found["from_rest"]) else { panic!("{found}") };
+    let [value, error] = ["value", "error"].map(|key| change[key].as_f64().expect("a number"));
+    assert!((value - 0.859_074_5).abs() <= error + 1e-6, "{found}");
+    for (velocity, quiet) in [(value - 2.0 * error, false), (value + 2.0 * error, true)] {
+        let at = belt("decreasing", velocity, &dither(0.0));
+        let end = verbs(&at).attractor(&AttractorRequest::default()).expect("an end").json();
+        assert_eq!(end["attractor"]["quiet"], quiet, "{velocity}: {end}");
+    }
+}
+
+/// Curves warn of slip beyond the range of the law, as thresholds do.
+#[test]
+fn curves_warn_of_slip_beyond_the_law() {
+    let text = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n\
+        [friction]\nlaw = \"samples\"\nslip_velocity = [0.0, 0.02, 0.04, 0.06, LAST]\n\
+        coefficient = [0.4, 0.38, 0.365, 0.355, 0.35]\n\
+        [dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.4\nfrequency_ratio = 10.0\n";
+    let warned = |last: &str| {
+        let study = study(&text.replace("LAST", last));
+        let found = curves(&study, (0.4, 0.6), "belt.belt_velocity", (0.049, 0.051));
+        assert!(!list(&found["curves"]).is_empty(), "{found}");
+        found["warnings"].to_string().contains("range of the samples law")
+    };
+    // At the thresholds the slip reaches twice the velocity of the surface.
+    assert!(warned("0.08") && !warned("0.2"));
 }
 
 /// Runs whose dither is ramped up stop being quenched at the same amplitude as those of the belt.

@@ -57,10 +57,11 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The initial-condition protocols of the requested runs, the motion to follow, and the time of the ramp.
+    /// The request over a window, with the runs and the motion to follow; `None` after a complaint.
     fn request(
         &self,
         system: &SystemStudy,
+        window: Option<(f64, f64)>,
         complaints: &mut Gathered,
     ) -> Option<ThresholdsRequest> {
         let mut read = |option, text: &Option<String>| {
@@ -78,7 +79,7 @@ impl Arguments {
         let protocols = asked.chain(start?.map(Protocol::From)).collect();
         let near = near?.map(|state| (state, self.periods));
         let parameter = self.varied.parameter.clone();
-        Some(ThresholdsRequest { parameter, window: (0.0, 0.0), near, protocols, ramp: ramp? })
+        Some(ThresholdsRequest { parameter, window: window?, near, protocols, ramp: ramp? })
     }
 }
 
@@ -94,14 +95,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let between = complaints.take(between.transpose());
     let system = study.as_ref().map(|study| system_of(study, "thresholds"));
     let request = match complaints.take(system.transpose()) {
-        Some(Some(system)) => arguments.request(&system, &mut complaints),
+        Some(Some(system)) => arguments.request(&system, range, &mut complaints),
         _ => None,
     };
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((study, range), ((request, between), (outputs, plot))) =
-        complaints.finish(study.zip(range).zip(request.zip(between).zip(outputs.zip(plot))))?;
-    let request = ThresholdsRequest { window: range, ..request };
+    let ((study, request), (between, (outputs, plot))) =
+        complaints.finish(study.zip(request).zip(between.zip(outputs.zip(plot))))?;
     let verbs = verbs(&study);
     let done = match arguments.along.clone().zip(between) {
         Some((along, between)) => {

@@ -2,7 +2,7 @@
 
 use quell_dynamics::motion::orbit::{
     MotionOrbit, NoMotionOrbit, RunOutcome, SWITCH_CLOSENESS, VariedRun, base_motion,
-    motion_thresholds, squealing_state, values_tried,
+    motion_thresholds, sliding_verdict, squealing_state, values_tried,
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{BAND_END, vibration_frequency};
@@ -11,7 +11,6 @@ use quell_linear::driven_point::DrivenPoint;
 use quell_linear::growth::Verdict;
 use quell_linear::input_cost::input_cost;
 use quell_linear::linearised::Linearised;
-use quell_linear::spectrum::growth;
 use quell_model::System;
 use quell_model::profile::Wave;
 
@@ -93,7 +92,8 @@ impl SystemPlant<'_> {
         let state = match self.start {
             DesignStart::Squeal => match squealing_state(&without) {
                 Ok(state) => state,
-                Err(_) if is_quiet_without(&without)? => return Ok(None),
+                // Where steady sliding is stable no limit cycle is needed for a design.
+                Err(_) if sliding_verdict(&without)? == Verdict::Stable => return Ok(None),
                 Err(why) => return Err(format!("the limit cycle without dither: {why}")),
             },
             DesignStart::Local | DesignStart::Rest => vec![0.0; without.state_size()],
@@ -186,13 +186,6 @@ pub(super) fn quiet_changes(
     });
     let first = outcomes.first().is_some_and(|(_, outcome)| quiet(outcome));
     Ok((first, changes.collect()))
-}
-
-/// Whether steady sliding is stable without dither, so that no limit cycle is needed for a design.
-fn is_quiet_without(system: &System) -> Result<bool, String> {
-    let linear = Linearised::new(system).map_err(in_words)?;
-    let growth = growth(&linear, &linear.friction()).map_err(in_words)?;
-    Ok(growth.verdict() == Verdict::Stable)
 }
 
 /// The base response of a system over the amplitude of one of its dithers, followed in at least `steps` steps: the judge of

@@ -7,7 +7,6 @@ use super::Presented;
 use super::table::TextTable;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
-use crate::fields::Fields;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::ramp::Ramp;
@@ -18,12 +17,11 @@ impl Presented<SystemSetup> for Ramp {
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
-        let sentence = Presented::sentence(self, study).unwrap_or_default();
-        Self::json(self, sentence, || Fields::of_system(study.units()))
+        self.json(study)
     }
 
     fn sentence(&self, study: &SystemStudy) -> Option<String> {
-        Some(Self::sentence(self, |quantity, value| in_units(study.units(), quantity, value)))
+        Some(self.sentence(study))
     }
 
     fn table(&self, study: &SystemStudy) -> String {
@@ -45,9 +43,7 @@ impl Presented<SystemSetup> for Ramp {
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
-        let sentence = Presented::sentence(self, study).unwrap_or_default();
-        let dataset = Dataset::of(&study.into(), "bifurcation: ramp");
-        vec![("ramp", self.columns(dataset, sentence))]
+        vec![("ramp", self.dataset(study))]
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {

@@ -2,9 +2,8 @@
 
 use std::fmt::Write as _;
 
+use quell_dynamics::motion::orbit::ThresholdCurveEnd;
 use serde_json::Value as Json;
-
-use quell_dynamics::motion::orbit::{ThresholdCurve, ThresholdCurveEnd};
 
 use super::Presented;
 use super::system::width_of;
@@ -110,12 +109,26 @@ impl Presented<SystemSetup> for Curves {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        let curves = self.found.curves.iter().map(|curve| (self.kind(study, curve), curve));
-        let names = [&self.request.along, &self.request.parameter].map(|path| {
+        let [x, y] = [&self.request.along, &self.request.parameter].map(|path| {
             let unit = study.unit_of(path).filter(|unit| *unit != "1");
             unit.map_or_else(|| path.clone(), |unit| format!("{path} ({unit})"))
         });
-        rows_of_curves(curves, &names, [&figure, &figure])
+        let mut text = String::new();
+        for curve in &self.found.curves {
+            let ([first, last], kind) =
+                (curve.ends.map(ThresholdCurveEnd::name), self.kind(study, curve));
+            let _ = writeln!(text, "\n{kind}, from one end ({first}) to the other ({last}):");
+            let _ = writeln!(text, "  {x:<14}  {y:<14}");
+            let every = curve.points.len().div_ceil(12).max(1);
+            let last = curve.points.len().saturating_sub(1);
+            for (number, point) in curve.points.iter().enumerate() {
+                if number % every == 0 || number == last {
+                    let [along, value] = [point.along, point.value].map(figure);
+                    let _ = writeln!(text, "  {along:<14}  {value:<14}");
+                }
+            }
+        }
+        text
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
@@ -125,26 +138,4 @@ impl Presented<SystemSetup> for Curves {
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::curves(study, self)))
     }
-}
-
-/// Curves with their kinds in words, some points of each, in the columns of the second and of the first parameter.
-fn rows_of_curves<'a>(
-    curves: impl Iterator<Item = (String, &'a ThresholdCurve)>,
-    [x, y]: &[String; 2],
-    [along, value]: [&dyn Fn(f64) -> String; 2],
-) -> String {
-    let mut text = String::new();
-    for (kind, curve) in curves {
-        let [first, last] = curve.ends.map(ThresholdCurveEnd::name);
-        let _ = writeln!(text, "\n{kind}, from one end ({first}) to the other ({last}):");
-        let _ = writeln!(text, "  {x:<14}  {y:<14}");
-        let every = curve.points.len().div_ceil(12).max(1);
-        let last = curve.points.len().saturating_sub(1);
-        for (number, point) in curve.points.iter().enumerate() {
-            if number % every == 0 || number == last {
-                let _ = writeln!(text, "  {:<14}  {:<14}", along(point.along), value(point.value));
-            }
-        }
-    }
-    text
 }

@@ -4,29 +4,15 @@ use quell_model::units::Quantity;
 
 use super::caption::caption_of_system;
 use super::ruler::Ruler;
-use crate::outcome::Presented;
 use crate::plot::{
     Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
 };
 use crate::run::ramp::Ramp;
 use crate::study::SystemStudy;
 
-/// The picture.
+/// Displacement, and vibration within one natural period, over the value of the ramp; rising and falling values apart.
 pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
     let ruler = |quantity, values: Vec<f64>| Ruler::of_system(study, quantity, values);
-    let sentence = Presented::sentence(done, study).unwrap_or_default();
-    figure(done, ruler, "observed displacement", "")
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{} {sentence}", caption_of_system(study)))
-}
-
-/// Displacement, and vibration within one natural period, over the value of the ramp; rising and falling values apart.
-fn figure(
-    done: &Ramp,
-    ruler: impl Fn(Quantity, Vec<f64>) -> Ruler,
-    name: &str,
-    symbol: &str,
-) -> Figure {
     let (least, largest) = done.ramped.range();
     let across = ruler(done.ramped.quantity, vec![least, largest]);
     let place = ruler(Quantity::Displacement, done.motion.displacement.clone());
@@ -36,7 +22,7 @@ fn figure(
     };
     let displacement = done.motion.times.iter().copied().zip(done.motion.displacement.clone());
     let mut motion = with_ways(
-        Panel::new(axis(), place.axis(name, symbol)),
+        Panel::new(axis(), place.axis("observed displacement", "")),
         done,
         |pieces| {
             let points =
@@ -68,6 +54,8 @@ fn figure(
         .sharing_x(Sharing::All)
         .legend(SharedLegend::Above)
         .size(Size::Frame(560.0, 190.0))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}", caption_of_system(study), done.sentence(study)))
 }
 
 /// Adds values over time as one curve for each interval in which the ramp rises or falls; `to_points` places them.

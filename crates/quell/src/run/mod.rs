@@ -38,6 +38,7 @@ pub mod response;
 mod sample_times;
 pub mod simulate;
 pub mod sketch;
+mod slip;
 mod sound_tap;
 pub mod stability;
 pub mod system;

@@ -8,7 +8,6 @@ use crate::complaint::{Complaint, Fault};
 use crate::study::vocabulary::size::SignalMeasure;
 use crate::study::vocabulary::{DocumentKind, Role, join};
 use crate::study::{BeltStudy, Kind, ParameterId, SystemStudy, key_at, with_unit};
-use crate::words::digits;
 
 /// What a varied number must be.
 pub(super) const OF_THE_EQUATIONS: &str = "a number of the equations, such as one of a contact, a friction law or a dither; this one changes none of them";
@@ -40,8 +39,6 @@ pub struct Named {
     key: String,
     /// What that key gives for one number of the equations.
     per_unit: f64,
-    /// The unit of that key.
-    unit: &'static str,
 }
 
 impl Named {
@@ -76,9 +73,8 @@ impl Named {
         let per_unit = per_unit.map(|(_, per_unit)| per_unit);
         match (meant, per_unit) {
             (Some(number), Some(per_unit)) => {
-                let unit = study.address(path).map_or("1", |address| address.unit);
                 let parameter = study.model().parameter(path)?;
-                Ok(Self { path: number, parameter, key: path.to_owned(), per_unit, unit })
+                Ok(Self { path: number, parameter, key: path.to_owned(), per_unit })
             }
             (_, _) if is_of_several(path) => {
                 let allowed = format!(
@@ -99,26 +95,6 @@ impl Named {
                 let near = meant.map(|path| key_of(study, &path));
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(near)))
             }
-        }
-    }
-
-    /// The key that names it.
-    pub fn key(&self) -> &str {
-        &self.key
-    }
-
-    /// The unit of that key, and what it gives for a number of the equations.
-    pub fn value(&self, number: f64) -> (&'static str, f64) {
-        (self.unit, number * self.per_unit)
-    }
-
-    /// A number of the equations as the key gives it, with its unit in a study with units.
-    pub fn words(&self, study: &BeltStudy, number: f64) -> String {
-        let value = number * self.per_unit;
-        match study.scales() {
-            None => value.to_string(),
-            Some(_) if self.unit == "1" => digits(value),
-            Some(_) => format!("{} {}", digits(value), self.unit),
         }
     }
 

@@ -96,13 +96,18 @@ fn without_dither(system: &System, start: &[f64]) -> Result<RunOutcome, String> 
 /// A start without dither. A run from unstable steady sliding would stay there until rounding displaces it: such a start is
 /// displaced first, by 10⁻⁴ times the velocity of the surface.
 pub fn displaced(system: &System, start: &[f64]) -> Vec<f64> {
-    let is_stable = || {
-        let linear = Linearised::new(system).ok()?;
-        let growth = spectrum::growth(&linear, &linear.friction()).ok()?;
-        Some(growth.verdict() == Verdict::Stable)
-    };
-    if !is_on_sliding(system, start) || is_stable() == Some(true) {
+    if !is_on_sliding(system, start) || sliding_verdict(system) == Ok(Verdict::Stable) {
         return start.to_vec();
     }
     kicked_by(system, NUDGE).unwrap_or_else(|| start.to_vec())
+}
+
+/// The verdict on steady sliding of a system without dither, by its small motions.
+///
+/// # Errors
+/// Why it is unknown: there is no steady sliding, or its eigenvalues overflow.
+pub fn sliding_verdict(system: &System) -> Result<Verdict, String> {
+    let linear = Linearised::new(system).map_err(|why| why.to_string())?;
+    let growth = spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())?;
+    Ok(growth.verdict())
 }

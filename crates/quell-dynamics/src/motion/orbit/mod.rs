@@ -42,7 +42,7 @@ pub use cycle_search::{
     BASE_STEPS, CycleSearch, NamedStart, TriedStart, base_state, kicked_by, search_cycle,
     squealing_state, usual_starts, without_cycle,
 };
-pub use end::{RunOutcome, displaced};
+pub use end::{RunOutcome, displaced, sliding_verdict};
 pub use free::{NoCycle, free_cycle, limit_cycles};
 pub use periodic::{
     MotionOrbit, NoMotionOrbit, base_motion, is_on_sliding, motion_near, sliding_state,

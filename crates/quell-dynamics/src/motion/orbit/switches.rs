@@ -12,7 +12,8 @@ use crate::orbit::OrbitVerdict;
 use crate::orbit::threshold::ThresholdKind;
 use crate::simulation::within;
 
-/// Relative width of the interval at which halving ends, in thresholds and designs alike.
+/// Relative width of the interval at which halving ends, in thresholds and designs alike: answers show six digits. A larger one would show
+/// in them; a smaller one only takes longer.
 pub const SWITCH_CLOSENESS: f64 = 1e-5;
 
 /// Distance from a threshold, over the step, at which runs confirm it.
@@ -94,6 +95,7 @@ impl VariedRun<'_> {
         (high, above): (f64, &RunOutcome),
     ) -> Option<RunSwitch> {
         let (from, to, state, periods) = match (below, above) {
+            // Where the number of periods is not known, one is tried: a motion of several has no orbit there, and halving decides.
             (RunOutcome::Quiet(state, periods), _) => (low, high, state, periods.unwrap_or(1)),
             (_, RunOutcome::Quiet(state, periods)) => (high, low, state, periods.unwrap_or(1)),
             _ => return None,

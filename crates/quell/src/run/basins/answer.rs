@@ -10,6 +10,7 @@ use crate::fields::Fields;
 use crate::run::system::attractor::{VERDICTS, verdict_code};
 use crate::run::system::simulate::beyond_laws;
 use crate::run::system::start::{state_names, state_quantity};
+use crate::run::system::value_at;
 use crate::study::SystemStudy;
 use crate::words::{capital, digits, plural};
 
@@ -144,8 +145,7 @@ impl Basins {
     /// A value of the parameter with its unit.
     fn value(&self, study: &SystemStudy, value: f64) -> String {
         let path = self.over.as_ref().map_or("", |over| over.parameter.as_str());
-        let unit = study.unit_of(path).filter(|unit| *unit != "1");
-        format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+        value_at(study, path, value)
     }
 
     fn over_parameter(&self, study: &SystemStudy) -> Vec<String> {
@@ -230,12 +230,9 @@ impl Basins {
                 format!("the outcome of {count} start{}{at} is unknown: {why}", plural(*count))
             })
         });
-        let attractors = || {
-            let basins = self.portraits.iter().flat_map(|portrait| &portrait.basins);
-            basins.map(|basin| &basin.attractor)
-        };
         let beyond = beyond_laws(study, |contact| {
-            attractors().map(|attractor| attractor.largest_slip[contact]).fold(0.0, f64::max)
+            let speeds = self.portraits.iter().map(|portrait| portrait.largest_slip[contact]);
+            speeds.fold(0.0, f64::max)
         });
         study.warnings().iter().cloned().chain(beyond).chain(unknown).collect()
     }

@@ -21,17 +21,19 @@ use quell_dynamics::attractor::{
     AttractorSettings, BasinLabel, Patience, Settled, gather, settle_many,
 };
 use quell_dynamics::response::dither_reaches_the_band;
-use quell_dynamics::simulation::{Stalled, Start, within};
+use quell_dynamics::simulation::{Stalled, within};
 use quell_model::{OneMass, System};
 
 use super::protocol::Protocol;
+use super::slip::SlipReached;
 use super::system::attractor::{
-    EndOfRun, SystemAttractor, ends_of_runs, local_verdict, measured_of_one_mass,
+    EndOfRun, SystemAttractor, ends_of_runs, judged_mass, local_verdict, measured_of_one_mass,
+    starts_of_mass,
 };
-use super::system::has_equations;
 use super::system::tracked::{TrackRequest, understood};
+use super::system::{failed, has_equations};
 use super::varied::{MOST_VALUES, Range};
-use super::{evenly, failed as stalled, stopped};
+use super::{evenly, stopped};
 use crate::complaint::{Complaint, Failure, Origin};
 use crate::effort::{STEPS_OF_A_SEARCH, STEPS_OF_MANY_SEARCHES};
 use crate::parallel::Parallel;
@@ -97,6 +99,8 @@ pub struct Portrait {
     pub unknown: Share,
     /// Why outcomes are unknown, each with its number of starts.
     pub reasons: Vec<(String, usize)>,
+    /// The largest slip speed of the starts and of the motions at each contact; 0 where no law has a range.
+    pub largest_slip: Vec<f64>,
 }
 
 /// The basins of a study.
@@ -165,6 +169,13 @@ struct Scene {
     mass: Option<OneMass>,
 }
 
+/// The starts of one task.
+struct Part {
+    ends: PartEnds,
+    /// The largest slip speed that they reach at each contact.
+    slip: Vec<f64>,
+}
+
 /// Where the starts of one task end.
 enum PartEnds {
     /// By the sections of one mass, not yet grouped.
@@ -203,10 +214,7 @@ pub fn run(
         let numbers: Vec<_> = over.clone().zip(value).into_iter().collect();
         let at = study.varied(&numbers)?;
         let begun = Protocol::Study.state(&at, at.system())?;
-        // Of a mass on a surface at rest that no dither moves every state in stick is an end of its own.
-        let judged =
-            |mass: &OneMass| at.system().is_dithered() || mass.belt().belt_velocity() != 0.0;
-        let mass = at.system().one_mass().filter(judged);
+        let mass = judged_mass(at.system());
         Ok(Scene { value, study: at, begun, mass })
     });
     let scenes = scenes.collect::<Result<Vec<_>, Failure>>()?;
@@ -249,12 +257,12 @@ impl BasinsPlan<'_> {
             if running.stop.load(Ordering::Relaxed) {
                 return Err(stopped("basins"));
             }
-            let ends = self.ends(&self.scenes[*scene], settings[*scene].as_ref(), part);
+            let ends = self.part(&self.scenes[*scene], settings[*scene].as_ref(), part);
             running.progress.advance(part.len());
             Ok(ends)
         });
         let mut ends = ends.collect::<Result<Vec<_>, Failure>>()?.into_iter();
-        let each: Vec<(&Scene, Option<&AttractorSettings<'_>>, Vec<PartEnds>)> = self
+        let each: Vec<(&Scene, Option<&AttractorSettings<'_>>, Vec<Part>)> = self
             .scenes
             .iter()
             .zip(&settings)
@@ -265,13 +273,13 @@ impl BasinsPlan<'_> {
         each.in_parallel(|(scene, settings, ends)| self.portrait(scene, *settings, ends)).collect()
     }
 
-    /// Where some starts of one value end.
-    fn ends(
+    /// Where some starts of one value end, and the slip that they reach.
+    fn part(
         &self,
         scene: &Scene,
         settings: Option<&AttractorSettings<'_>>,
         part: &[[f64; 2]],
-    ) -> PartEnds {
+    ) -> Part {
         let states = part.iter().map(|values| {
             let mut state = scene.begun.clone();
             for (place, value) in self.places.iter().zip(values) {
@@ -280,17 +288,17 @@ impl BasinsPlan<'_> {
             state
         });
         let states: Vec<Vec<f64>> = states.collect();
-        if let (Some(mass), Some(settings)) = (&scene.mass, settings) {
-            let starts = states.iter().map(|state| {
-                let (displacement, velocity) = mass.of_state(state);
-                Start { time: 0.0, displacement, velocity }
-            });
-            let starts: Vec<Start> = starts.collect();
+        let system = scene.study.system();
+        let mut slip = SlipReached::new(system);
+        slip.add_all(system, &states);
+        let ends = if let (Some(mass), Some(settings)) = (&scene.mass, settings) {
+            let starts = starts_of_mass(mass, &states);
             let steps = STEPS_OF_A_SEARCH.saturating_mul(starts.len() as u64);
-            let settled = within(steps, || settle_many(settings, &starts, Patience::BASIN));
-            return PartEnds::Settled(settled);
-        }
-        PartEnds::Each(ends_of_runs(scene.study.system(), &scene.study.observe(), &states))
+            PartEnds::Settled(within(steps, || settle_many(settings, &starts, Patience::BASIN)))
+        } else {
+            PartEnds::Each(ends_of_runs(system, &scene.study.observe(), &states))
+        };
+        Part { ends, slip: slip.largest() }
     }
 
     /// The starts of one value grouped by motion.
@@ -298,22 +306,25 @@ impl BasinsPlan<'_> {
         &self,
         scene: &Scene,
         settings: Option<&AttractorSettings<'_>>,
-        parts: &[PartEnds],
+        parts: &[Part],
     ) -> Result<Portrait, Failure> {
         let mut settled: Vec<Result<Settled, Stalled>> = Vec::new();
         let mut each: Vec<Result<EndOfRun, String>> = Vec::new();
+        let system = scene.study.system();
+        let mut slip = SlipReached::new(system);
         for part in parts {
-            match part {
+            slip.include(&part.slip);
+            match &part.ends {
                 PartEnds::Settled(part) => settled.extend(part.iter().copied()),
                 PartEnds::Each(part) => each.extend(part.iter().cloned()),
             }
         }
-        let system = scene.study.system();
         let grouped = match (&scene.mass, settings) {
             (Some(mass), Some(settings)) => of_one_mass((&scene.study, mass), settings, &settled)?,
             _ => Grouped::of(system, each),
         };
-        Ok(grouped.portrait(scene.value, system, self.layout))
+        grouped.motions.iter().for_each(|(motion, _)| slip.include(&motion.largest_slip));
+        Ok(grouped.portrait(scene, self.layout, slip.largest()))
     }
 }
 
@@ -334,7 +345,8 @@ fn of_one_mass(
     settings: &AttractorSettings<'_>,
     settled: &[Result<Settled, Stalled>],
 ) -> Result<Grouped, Failure> {
-    let gathered = within(STEPS_OF_MANY_SEARCHES, || gather(settings, settled)).map_err(stalled)?;
+    let gathered = within(STEPS_OF_MANY_SEARCHES, || gather(settings, settled))
+        .map_err(|why| failed("basins", why))?;
     let periods = |basin: usize| {
         let mine = gathered.labels.iter().zip(settled).filter_map(|(label, run)| {
             let is_mine = *label == BasinLabel::Attractor(basin);
@@ -346,7 +358,7 @@ fn of_one_mass(
     let motions = gathered.basins.iter().enumerate().map(|(place, basin)| {
         let periods = periods(place);
         let found = measured_of_one_mass((study.system(), mass), &row, &basin.attractor, periods);
-        let found = found.map_err(|why| Failure::Failed { key: "basins".to_owned(), why })?;
+        let found = found.map_err(|why| failed("basins", why))?;
         Ok((found, periods))
     });
     let motions = motions.collect::<Result<Vec<_>, Failure>>()?;
@@ -397,7 +409,8 @@ impl Grouped {
     }
 
     /// The portrait of one value.
-    fn portrait(self, value: Option<f64>, system: &System, layout: StartLayout) -> Portrait {
+    fn portrait(self, scene: &Scene, layout: StartLayout, largest_slip: Vec<f64>) -> Portrait {
+        let system = scene.study.system();
         let Self { motions, ends, reasons } = self;
         let count = |place: usize| ends.iter().filter(|end| **end == Some(place)).count();
         let mut order: Vec<usize> = (0..motions.len()).collect();
@@ -421,7 +434,7 @@ impl Grouped {
         let quiet = open.contains(&false).then(|| Share::between(layout, &ends_quiet, &open));
         let unknown = Share::of(layout, &open);
         Portrait {
-            value,
+            value: scene.value,
             is_dithered: system.is_dithered(),
             in_band: system.is_dithered() && dither_reaches_the_band(system),
             local: local_verdict(system),
@@ -430,6 +443,7 @@ impl Grouped {
             quiet,
             unknown,
             reasons,
+            largest_slip,
         }
     }
 }

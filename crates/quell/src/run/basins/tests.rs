@@ -26,6 +26,7 @@ fn unknown_ends_reach_nothing() {
         quiet: None,
         unknown: Share::of(layout, &[true; 3]),
         reasons,
+        largest_slip: vec![0.0],
     };
     let at = |value: Option<f64>| Portrait { value, ..portrait.clone() };
     let range =

@@ -10,8 +10,8 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::system::attractor::{KINDS, MotionKind, SystemAttractor, VERDICTS, verdict_code};
 use crate::run::system::simulate::beyond_laws;
+use crate::run::system::value_at;
 use crate::study::SystemStudy;
-use crate::words::digits;
 
 /// The motion of a point in words.
 pub fn words(study: &SystemStudy, point: &SweepPoint) -> String {
@@ -31,8 +31,7 @@ fn briefly(study: &SystemStudy, point: &SweepPoint) -> String {
 impl Bifurcation {
     /// A value of the parameter with its unit.
     fn value(&self, study: &SystemStudy, value: f64) -> String {
-        let unit = study.unit_of(&self.range.parameter).filter(|unit| *unit != "1");
-        format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+        value_at(study, &self.range.parameter, value)
     }
 
     /// One sentence for each direction and one that compares both.

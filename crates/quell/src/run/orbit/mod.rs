@@ -3,12 +3,11 @@
 
 use quell_dynamics::motion::orbit::{
     BASE_STEPS, CycleSearch, MotionOrbit, NamedStart, NoMotionOrbit, SettledMotion, TriedStart,
-    base_motion, limit_cycles, motion_near, search_cycle, settled, usual_starts,
+    base_motion, limit_cycles, motion_near, search_cycle, settled, sliding_verdict, usual_starts,
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::within;
-use quell_linear::linearised::Linearised;
-use quell_linear::spectrum;
+use quell_linear::growth::Verdict;
 use quell_model::System;
 use quell_model::parameter::BELT_VELOCITY;
 
@@ -233,11 +232,7 @@ fn undithered(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, 
             searched(starts)
         }
     };
-    let sliding = Linearised::new(&free).map_err(|why| why.to_string()).and_then(|linear| {
-        let growth =
-            spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())?;
-        Ok(growth.verdict().name())
-    });
+    let sliding = sliding_verdict(&free).map(Verdict::name);
     Ok(PeriodicResponse { found, cycles, tried, sliding: Some(sliding) })
 }
 

@@ -48,7 +48,7 @@ pub fn run(study: &SystemStudy) -> Result<Ramp, Failure> {
     };
     let thresholds = thresholds(study, &ramped);
     let (end, warnings) = (run.end.time, run.warnings(study));
-    Ok(Ramp::new("the system", ramped, (run.manoeuvre, end), motion, thresholds, warnings))
+    Ok(Ramp::new(ramped, (run.manoeuvre, end), motion, thresholds, warnings))
 }
 
 /// What varies by knots.

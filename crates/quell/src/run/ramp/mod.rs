@@ -21,6 +21,8 @@ use super::manoeuvre::{Manoeuvre, SampledMotion, VibrationInterval, vibration_le
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::fields::Fields;
+use crate::run::system::in_units;
+use crate::study::SystemStudy;
 
 pub use courses::run;
 
@@ -167,7 +169,7 @@ pub struct RampThreshold {
 pub struct RampedMotion {
     /// Times of equal steps.
     pub times: Vec<f64>,
-    /// The displacement: of a belt x, of a system its observed row.
+    /// The observed displacement.
     pub displacement: Vec<f64>,
     /// The observed velocity; `None` of first-order equations.
     pub velocity: Option<Vec<f64>>,
@@ -190,8 +192,6 @@ impl RampedMotion {
 /// A ramp and the thresholds that it passes.
 #[derive(Clone, Debug)]
 pub struct Ramp {
-    /// What vibrates, in words.
-    pub what: &'static str,
     /// What changes.
     pub ramped: RampCourse,
     /// When the run vibrates.
@@ -215,7 +215,6 @@ impl Ramp {
     }
 
     fn new(
-        what: &'static str,
         ramped: RampCourse,
         (manoeuvre, until): (Option<Manoeuvre>, f64),
         motion: RampedMotion,
@@ -225,7 +224,7 @@ impl Ramp {
         let transient = TRANSIENT * motion.period;
         let found = manoeuvre.as_ref();
         let switches = found.map(|found| switches(found, &ramped, transient)).unwrap_or_default();
-        Self { what, ramped, manoeuvre, until, motion, switches, thresholds, warnings }
+        Self { ramped, manoeuvre, until, motion, switches, thresholds, warnings }
     }
 
     /// The moments at which the ramp passes a threshold, in order.
@@ -277,8 +276,9 @@ impl Ramp {
         text
     }
 
-    /// What happens along the ramp, in a few sentences; `in_words` writes a quantity with its unit.
-    pub fn sentence(&self, in_words: impl Fn(Quantity, f64) -> String) -> String {
+    /// What happens along the ramp, in a few sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let in_words = |quantity, value| in_units(study.units(), quantity, value);
         let RampCourse { words, quantity, .. } = &self.ramped;
         let in_its_unit = |value: f64| in_words(*quantity, value);
         let (least, largest) = self.ramped.range();
@@ -298,7 +298,7 @@ impl Ramp {
         if let further @ 1.. = self.switches.len().saturating_sub(MOST_SWITCHES) {
             each.push(format!("and so on, {further} more times"));
         }
-        let what = self.what;
+        let what = "the system";
         let _ = match (each.as_slice(), vibrates) {
             ([], true) => write!(text, "{what} vibrates all the time."),
             ([], false) => write!(text, "{what} does not vibrate."),
@@ -310,14 +310,15 @@ impl Ramp {
         text
     }
 
-    /// As JSON; `empty` makes fields in the units of the study.
-    pub fn json(&self, sentence: String, empty: impl Fn() -> Fields) -> Json {
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let empty = || Fields::of_system(study.units());
         let quantity = self.ramped.quantity;
         let mut fields = empty();
         let (least, largest) = self.ramped.range();
         fields
             .plain("ok", true)
-            .plain("sentence", sentence)
+            .plain("sentence", self.sentence(study))
             .plain("parameter", self.ramped.path.as_str())
             .number("least", quantity, least)
             .number("largest", quantity, largest)
@@ -355,18 +356,18 @@ impl Ramp {
             }
         }
         if let Some(found) = &self.manoeuvre {
-            fields.nested("manoeuvre", found.fields(&empty));
+            fields.nested("manoeuvre", found.fields(empty));
         }
         fields.plain("warnings", self.warnings.clone());
         fields.finish()
     }
 
-    /// Adds the value of the ramp and the motion over time to a dataset.
-    pub fn columns(&self, dataset: Dataset, sentence: String) -> Dataset {
+    /// The value of the ramp and the motion over time.
+    pub fn dataset(&self, study: &SystemStudy) -> Dataset {
         let RampedMotion { times, displacement, velocity, .. } = &self.motion;
         let values = times.iter().map(|time| self.ramped.value(*time)).collect();
-        let dataset = dataset
-            .fact(sentence)
+        let dataset = Dataset::of(&study.into(), "bifurcation: ramp")
+            .fact(self.sentence(study))
             .axis("time", Quantity::Time, times.clone())
             .array("value", self.ramped.quantity, values)
             .array("displacement", Quantity::Displacement, displacement.clone());

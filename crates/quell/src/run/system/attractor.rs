@@ -6,15 +6,13 @@ use quell_dynamics::attractor::{
 };
 use quell_dynamics::motion::orbit::{
     BASE_STEPS, MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, displaced,
-    free_cycle, settled, settled_many,
+    free_cycle, settled, settled_many, sliding_state, sliding_verdict,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
 use quell_dynamics::orbit::NoOrbit;
 use quell_dynamics::response::is_above_the_band;
 use quell_dynamics::simulation::{Stalled, Start};
-use quell_linear::linearised::Linearised;
 use quell_linear::pure_slip::period;
-use quell_linear::spectrum;
 use quell_model::units::Quantity;
 use quell_model::{OneMass, System};
 use serde_json::json;
@@ -104,15 +102,31 @@ pub struct EndOfRun {
 /// # Errors
 /// Why it cannot be computed.
 pub fn end_of_run(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
+    if let Some(mass) = judged_mass(system) {
+        let ends = ends_of_one_mass((system, &mass), row, &[start.to_vec()]);
+        return ends.into_iter().next().unwrap_or_else(|| Err("no run".to_owned()));
+    }
     if !system.is_dithered() {
         // A dither of amplitude 0 gives the motion no period.
         return on_free_motion(&system.undithered(), row, start);
     }
-    if let Some(mass) = system.one_mass() {
-        let ends = ends_of_one_mass((system, &mass), row, &[start.to_vec()]);
-        return ends.into_iter().next().unwrap_or_else(|| Err("no run".to_owned()));
-    }
     under_dither(system, row, start, settled(system, start))
+}
+
+/// The one mass of a system whose runs are judged by its section, without dither by its cycle map. Of a mass on a surface at rest that no
+/// dither moves every state in stick is an end of its own: its runs are followed.
+pub(in crate::run) fn judged_mass(system: &System) -> Option<OneMass> {
+    let judges = |mass: &OneMass| system.is_dithered() || mass.belt().belt_velocity() != 0.0;
+    system.one_mass().filter(judges)
+}
+
+/// The starts of runs of one mass.
+pub(in crate::run) fn starts_of_mass(mass: &OneMass, states: &[Vec<f64>]) -> Vec<Start> {
+    let starts = states.iter().map(|state| {
+        let (displacement, velocity) = mass.of_state(state);
+        Start { time: 0.0, displacement, velocity }
+    });
+    starts.collect()
 }
 
 /// [`end_of_run`] of several starts; those under dither go on side by side.
@@ -121,18 +135,18 @@ pub(in crate::run) fn ends_of_runs(
     row: &[f64],
     starts: &[Vec<f64>],
 ) -> Vec<Result<EndOfRun, String>> {
+    if let Some(mass) = judged_mass(system) {
+        return ends_of_one_mass((system, &mass), row, starts);
+    }
     if !system.is_dithered() {
         return starts.iter().map(|start| end_of_run(system, row, start)).collect();
-    }
-    if let Some(mass) = system.one_mass() {
-        return ends_of_one_mass((system, &mass), row, starts);
     }
     let found = settled_many(system, starts).into_iter().zip(starts);
     found.map(|(found, start)| under_dither(system, row, start, found)).collect()
 }
 
-/// The motions on which runs of one mass under dither end, judged by its stroboscopic section: its closed orbits, and the rotation of its
-/// curves.
+/// The motions on which runs of one mass end: under dither by its stroboscopic section, its closed orbits and the rotation of its curves,
+/// without by its cycle map.
 fn ends_of_one_mass(
     (system, mass): (&System, &OneMass),
     row: &[f64],
@@ -142,11 +156,7 @@ fn ends_of_one_mass(
         Ok(settings) => settings,
         Err(why) => return vec![Err(why.to_string()); starts.len()],
     };
-    let begun = starts.iter().map(|start| {
-        let (displacement, velocity) = mass.of_state(start);
-        Start { time: 0.0, displacement, velocity }
-    });
-    let settled = settle_many(&settings, &begun.collect::<Vec<_>>(), Patience::SWEEP);
+    let settled = settle_many(&settings, &starts_of_mass(mass, starts), Patience::SWEEP);
     let end = |settled: Result<Settled, Stalled>| {
         let stopped = |why: Stalled| {
             let time = why.time / mass.rate();
@@ -157,7 +167,7 @@ fn ends_of_one_mass(
         let periods = u32::try_from(settled.periods).unwrap_or(u32::MAX);
         match found {
             Some(found) => {
-                let attractor = of_one_mass((system, mass), row, &found, periods)?;
+                let attractor = measured_of_one_mass((system, mass), row, &found, periods)?;
                 Ok(EndOfRun { attractor, periods })
             }
             None => Err(settled.why().unwrap_or(Unsettled::Moving).about().to_owned()),
@@ -176,9 +186,11 @@ pub(in crate::run) fn measured_of_one_mass(
     if system.is_dithered() {
         return of_one_mass((system, mass), row, found, tried);
     }
-    // Without dither its section has no period: the limit cycle is closed from a state of it.
-    let state = mass.state(found.state.displacement, found.state.velocity);
-    Ok(on_free_motion(&system.undithered(), row, &state)?.attractor)
+    // Without dither its section has no period: steady sliding is known exactly, and a limit cycle is closed from a state of it.
+    let free = system.undithered();
+    let reached = || mass.state(found.state.displacement, found.state.velocity).to_vec();
+    let sliding = found.base.then(|| sliding_state(&free).ok()).flatten();
+    Ok(on_free_motion(&free, row, &sliding.unwrap_or_else(reached))?.attractor)
 }
 
 /// An attractor of one mass under dither as that of its system.
@@ -287,9 +299,7 @@ pub fn local_verdict(system: &System) -> Result<&'static str, String> {
         let base = base_motion(system, BASE_STEPS).map_err(|why| why.to_string())?;
         return Ok(base.verdict().name());
     }
-    let linear = Linearised::new(system).map_err(|why| why.to_string())?;
-    let growth = spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())?;
-    Ok(growth.verdict().name())
+    Ok(sliding_verdict(system)?.name())
 }
 
 fn on_free_motion(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
@@ -329,6 +339,21 @@ fn at_periods(
         states.push(from.state.clone());
     }
     Ok(states)
+}
+
+/// Why the observed velocity is unknown.
+const WITHOUT_VELOCITY: &str = "the states of first-order equations contain no velocity";
+
+/// Adds a state, and the observed displacement and velocity in it.
+pub(in crate::run) fn put_state(fields: &mut Fields, study: &SystemStudy, state: &[f64]) {
+    let observe = study.observe();
+    let displacement = observe.iter().zip(state).map(|(w, x)| w * x).sum();
+    let is_mechanical = study.system().structure.mechanical().is_some();
+    let velocity = is_mechanical.then(|| rate_of(&observe, state));
+    fields
+        .plain("state", state.to_vec())
+        .number("displacement", Quantity::Displacement, displacement)
+        .known("velocity", Quantity::Velocity, velocity.ok_or_else(|| WITHOUT_VELOCITY.to_owned()));
 }
 
 /// Rate of an observed displacement in a state of masses.
@@ -508,25 +533,15 @@ impl SystemAttractor {
             );
             inner
         });
-        let observe = study.observe();
-        let displacement = observe.iter().zip(&self.state).map(|(w, x)| w * x).sum();
-        let is_mechanical = study.system().structure.mechanical().is_some();
-        let velocity = || "the states of first-order equations contain no velocity".to_owned();
+        put_state(fields, study, &self.state);
         fields
-            .plain("state", self.state.clone())
-            .number("displacement", Quantity::Displacement, displacement)
-            .known(
-                "velocity",
-                Quantity::Velocity,
-                is_mechanical.then(|| rate_of(&observe, &self.state)).ok_or_else(velocity),
-            )
             .number("lowest", Quantity::Displacement, self.extremes.0)
             .number("highest", Quantity::Displacement, self.extremes.1)
             .number("peak_to_peak", Quantity::Displacement, self.size())
             .numbers("section_displacement", Quantity::Displacement, &self.section);
         match self.section_rates(study) {
             Some(rates) => fields.numbers("section_velocity", Quantity::Velocity, &rates),
-            None => fields.unknown("section_velocity", velocity()),
+            None => fields.unknown("section_velocity", WITHOUT_VELOCITY),
         };
         fields.list("contacts", contacts);
     }

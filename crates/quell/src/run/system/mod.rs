@@ -79,6 +79,12 @@ pub(crate) fn in_units(units: UnitSystem, quantity: Quantity, value: f64) -> Str
     format!("{}{unit}", digits(value))
 }
 
+/// A value of the number at a path with its unit.
+pub(crate) fn value_at(study: &SystemStudy, path: &str, value: f64) -> String {
+    let unit = study.unit_of(path).filter(|unit| *unit != "1");
+    format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+}
+
 /// A number of a study with its unit; a time in seconds where plain times of its options are.
 pub(crate) fn in_units_of(study: &SystemStudy, quantity: Quantity, value: f64) -> String {
     match study.scaled_time().filter(|time| time.plain_in_seconds) {

@@ -6,6 +6,7 @@ use quell_model::units::{Quantity, measure};
 use quell_model::{Contact, System};
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::dataset::{Array, Dataset};
 use crate::nearest;
 use crate::quantity;
 use crate::study::{SystemStart, SystemStudy, UnitSystem};
@@ -49,6 +50,21 @@ pub fn state_quantity(system: &System, place: usize) -> Option<Quantity> {
     }
     let displacements = system.structure.mechanical()?.size();
     Some(if place < displacements { Quantity::Displacement } else { Quantity::Velocity })
+}
+
+/// A dataset with one column for each number of a state, over states in its order.
+pub(in crate::run) fn state_columns(
+    dataset: Dataset,
+    study: &SystemStudy,
+    states: &[&[f64]],
+) -> Dataset {
+    let names = state_names(study.system()).into_iter().enumerate();
+    names.fold(dataset, |dataset, (place, name)| {
+        let quantity = state_quantity(study.system(), place);
+        let unit = quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1");
+        let values = states.iter().map(|state| state[place]).collect();
+        dataset.with(Array::new(format!("state.{name}"), unit, values))
+    })
 }
 
 /// The start of a study's runs.

@@ -14,11 +14,12 @@ use super::{TRIED, Thresholds, side};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::criticality;
-use crate::run::system::attractor::rate_of;
+use crate::run::system::attractor::put_state;
 use crate::run::system::simulate::beyond_laws;
-use crate::run::system::start::{state_names, state_quantity};
+use crate::run::system::start::{state_columns, state_names};
+use crate::run::system::value_at;
 use crate::study::SystemStudy;
-use crate::words::{digits, plural};
+use crate::words::plural;
 
 /// Word of the ending of a branch.
 fn ending_name(ending: BranchEnding) -> &'static str {
@@ -44,8 +45,7 @@ pub(super) fn end_of(ending: BranchEnding) -> Option<f64> {
 impl Thresholds {
     /// A value of the parameter with its unit.
     pub fn value(&self, study: &SystemStudy, value: f64) -> String {
-        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
-        format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+        value_at(study, &self.request.parameter, value)
     }
 
     /// The outcome of a run in words. A dither in the band of the vibration itself cannot quench it.
@@ -197,18 +197,8 @@ fn put(study: &SystemStudy, unit: &str, found: &MotionThreshold) -> Fields {
         .measured("error", unit, found.error)
         .plain("kind", found.kind.name())
         .plain("was", side(found.was))
-        .plain("becomes", side(found.becomes))
-        .plain("state", found.state.clone());
-    let observe = study.observe();
-    let displacement = observe.iter().zip(&found.state).map(|(w, x)| w * x).sum();
-    let is_mechanical = study.system().structure.mechanical().is_some();
-    let velocity = is_mechanical.then(|| rate_of(&observe, &found.state));
-    let without = || "the states of first-order equations contain no velocity".to_owned();
-    fields.number("displacement", Quantity::Displacement, displacement).known(
-        "velocity",
-        Quantity::Velocity,
-        velocity.ok_or_else(without),
-    );
+        .plain("becomes", side(found.becomes));
+    put_state(&mut fields, study, &found.state);
     put_contacts(&mut fields, study, &found.contacts);
     let names = ["radius_below", "radius_above"];
     for (name, radius) in names.into_iter().zip(found.radii) {
@@ -236,12 +226,7 @@ impl Thresholds {
             .with_axis(Array::new("point", "1", rows))
             .with(Array::new("parameter", unit, branch.iter().map(|point| point.value).collect()))
             .with(Array::new("radius", "1", branch.iter().map(|point| point.radius).collect()));
-        let names = state_names(study.system()).into_iter().enumerate();
-        Some(names.fold(dataset, |dataset, (place, name)| {
-            let quantity = state_quantity(study.system(), place);
-            let unit = quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1");
-            let values = branch.iter().map(|point| point.state[place]).collect();
-            dataset.with(Array::new(format!("state.{name}"), unit, values))
-        }))
+        let states: Vec<&[f64]> = branch.iter().map(|point| point.state.as_slice()).collect();
+        Some(state_columns(dataset, study, &states))
     }
 }

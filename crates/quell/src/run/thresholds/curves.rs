@@ -9,22 +9,24 @@ use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use super::super::slip::SlipReached;
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::document::given_number;
 use crate::fields::Fields;
 use crate::run::criticality;
-use crate::run::system::start::{state_names, state_quantity};
+use crate::run::system::simulate::beyond_laws;
+use crate::run::system::start::{state_columns, state_names};
 use crate::run::system::tracked::{TrackRequest, understood};
-use crate::run::system::{failed, has_equations};
+use crate::run::system::{failed, has_equations, value_at};
 use crate::study::SystemStudy;
-use crate::words::{digits, plural};
+use crate::words::plural;
 
 /// Lines across the second parameter on which the search for curves starts.
-pub(super) const LINES: u32 = 5;
+const LINES: u32 = 5;
 
 /// Minimum number of points of a curve across a window.
-pub(super) const POINTS: u32 = 100;
+const POINTS: u32 = 100;
 
 /// Intervals of the second parameter between evaluations of averaging.
 const AVERAGED: u32 = 120;
@@ -52,19 +54,18 @@ pub struct AveragedBoundary {
 }
 
 impl AveragedBoundary {
-    /// The critical amplitudes over a window of the second parameter at `steps` intervals, one boundary after another: those
-    /// towards stability and towards instability are separate curves.
-    pub(super) fn along(
+    /// The critical amplitudes over a window of the second parameter, one boundary after another: those towards stability and towards
+    /// instability are separate curves.
+    fn along(
         limit: bool,
         (first, last): (f64, f64),
-        steps: u32,
         boundaries: &[&dyn Fn(f64) -> Option<f64>],
     ) -> Self {
         let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
         for amplitude in boundaries {
             let mut piece = Vec::new();
-            for k in 0..=steps {
-                let along = first + (last - first) * f64::from(k) / f64::from(steps);
+            for k in 0..=AVERAGED {
+                let along = first + (last - first) * f64::from(k) / f64::from(AVERAGED);
                 match amplitude(along) {
                     Some(amplitude) => piece.push((along, amplitude)),
                     None if piece.is_empty() => {}
@@ -80,7 +81,7 @@ impl AveragedBoundary {
 }
 
 /// Why a curve ends inside its windows, in words; `None` if it does not.
-pub(super) fn why_it_ends(end: ThresholdCurveEnd) -> Option<&'static str> {
+fn why_it_ends(end: ThresholdCurveEnd) -> Option<&'static str> {
     match end {
         ThresholdCurveEnd::Window | ThresholdCurveEnd::Closed => None,
         ThresholdCurveEnd::Grazing => Some("beyond it the response grazes or changes its events"),
@@ -102,6 +103,8 @@ pub struct Curves {
     pub found: CurvesFound,
     /// Boundaries of averaging, if the first parameter is the amplitude of the first dither.
     pub averaged: Vec<AveragedBoundary>,
+    /// Largest slip speed that each contact reaches in the responses on the curves.
+    pub slip: Vec<f64>,
 }
 
 /// The same parameters and windows for eigenvalues.
@@ -162,7 +165,13 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<Curves, Failu
     let found = motion_curves(&plane, LINES)
         .map_err(|line| failed("thresholds", line_in_words(study, request, &line)))?;
     let averaged = averaged(study, request, &at);
-    Ok(Curves { request: request.clone(), found, averaged })
+    let mut slip = SlipReached::new(study.system());
+    for point in found.curves.iter().flat_map(|curve| &curve.points) {
+        if let Ok(system) = at(&[point.value, point.along]) {
+            slip.add(&system, &point.state);
+        }
+    }
+    Ok(Curves { request: request.clone(), found, averaged, slip: slip.largest() })
 }
 
 /// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither.
@@ -186,7 +195,7 @@ fn averaged(
     };
     let [stable, unstable] = [boundary(Becomes::Stable), boundary(Becomes::Unstable)];
     // Averaging of systems has the fast motion of the structure itself.
-    let found = AveragedBoundary::along(false, request.between, AVERAGED, &[&stable, &unstable]);
+    let found = AveragedBoundary::along(false, request.between, &[&stable, &unstable]);
     // That in the limit R → ∞ is known of one mass.
     let limit = |becomes: Becomes| {
         move |along: f64| {
@@ -200,8 +209,7 @@ fn averaged(
         }
     };
     let [stable, unstable] = [limit(Becomes::Stable), limit(Becomes::Unstable)];
-    let in_the_limit =
-        AveragedBoundary::along(true, request.between, AVERAGED, &[&stable, &unstable]);
+    let in_the_limit = AveragedBoundary::along(true, request.between, &[&stable, &unstable]);
     let is_empty = in_the_limit.pieces.is_empty();
     (!is_empty).then_some(in_the_limit).into_iter().chain([found]).collect()
 }
@@ -236,14 +244,9 @@ pub(super) fn put_contacts(fields: &mut Fields, study: &SystemStudy, contacts: &
     }
 }
 
-fn with_unit(study: &SystemStudy, path: &str, value: f64) -> String {
-    let unit = study.unit_of(path).filter(|unit| *unit != "1");
-    format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
-}
-
 fn line_in_words(study: &SystemStudy, request: &CurvesRequest, line: &OpenLine) -> String {
-    let place = with_unit(study, &request.along, line.along);
-    let why = line.why.words(|value| with_unit(study, &request.parameter, value));
+    let place = value_at(study, &request.along, line.along);
+    let why = line.why.words(|value| value_at(study, &request.parameter, value));
     format!("on the line {} = {place}: {why}", request.along)
 }
 
@@ -261,7 +264,7 @@ impl Curves {
     /// The curves and where they end inside the windows, in a few sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let CurvesRequest { parameter, along, between: (first, last), .. } = &self.request;
-        let (from, to) = (with_unit(study, along, *first), with_unit(study, along, *last));
+        let (from, to) = (value_at(study, along, *first), value_at(study, along, *last));
         let count = self.found.curves.len();
         if count == 0 {
             return format!(
@@ -279,7 +282,7 @@ impl Curves {
                 [(curve.points.first(), curve.ends[0]), (curve.points.last(), curve.ends[1])];
             for (point, end) in ends {
                 if let (Some(point), Some(why)) = (point, why_it_ends(end)) {
-                    let along = format!("{along} = {}", with_unit(study, along, point.along));
+                    let along = format!("{along} = {}", value_at(study, along, point.along));
                     let kind = self.kind(study, curve);
                     sentences.push(format!("The {kind} curve ends at {along}: {why}."));
                 }
@@ -288,12 +291,13 @@ impl Curves {
         sentences.join(" ")
     }
 
-    /// Warnings: those of the study, and lines on which curves may be missing.
+    /// Warnings: those of the study, about slip beyond the ranges of the laws, and lines on which curves may be missing.
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let missing = self.found.open.iter().map(|line| {
             format!("curves may be missing {}", line_in_words(study, &self.request, line))
         });
-        study.warnings().iter().cloned().chain(missing).collect()
+        let beyond = beyond_laws(study, |contact| self.slip[contact]);
+        study.warnings().iter().cloned().chain(beyond).chain(missing).collect()
     }
 
     /// As JSON.
@@ -382,12 +386,7 @@ impl Curves {
                 "1",
                 points().map(|(.., point)| point.radius).collect(),
             ));
-        let names = state_names(study.system()).into_iter().enumerate();
-        names.fold(dataset, |dataset, (place, name)| {
-            let quantity = state_quantity(study.system(), place);
-            let unit = quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1");
-            let values = points().map(|(.., point)| point.state[place]).collect();
-            dataset.with(Array::new(format!("state.{name}"), unit, values))
-        })
+        let states: Vec<&[f64]> = points().map(|(.., point)| point.state.as_slice()).collect();
+        state_columns(dataset, study, &states)
     }
 }

@@ -7,23 +7,21 @@ mod answer;
 pub mod curves;
 mod sentence;
 
-use std::f64::consts::TAU;
 use std::sync::Mutex;
 
 use quell_dynamics::motion::orbit::{
     BASE_STEPS, MotionThresholds, NoMotionOrbit, RunOutcome, RunSwitches, VariedRun, base_motion,
-    motion_thresholds, sliding_state, values_tried,
+    motion_thresholds, sliding_state, sliding_verdict, values_tried,
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::BranchEnding;
-use quell_dynamics::response::{dither_reaches_the_band, vibration_frequency};
-use quell_linear::pure_slip::period;
+use quell_dynamics::response::dither_reaches_the_band;
+use quell_linear::growth::Verdict;
 use quell_model::System;
 use serde_json::Value as Json;
 
 use super::protocol::Protocol;
-use super::system::attractor::local_verdict;
-use super::system::cycle_samples::CycleSamples;
+use super::slip::SlipReached;
 use super::system::start::{StateNumbers, start_with};
 use super::system::tracked::{TrackRequest, understood};
 use super::system::{failed, has_equations};
@@ -41,9 +39,6 @@ pub const TRIED: u32 = 40;
 
 /// Minimum number of continuation steps over the range.
 const STEPS: u32 = 40;
-
-/// Periods of the vibration over which the slip of a run from its start is observed: the first ones, in which a transient is largest.
-const SLOW_PERIODS: f64 = 4.0;
 
 /// Options of `thresholds`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -84,8 +79,7 @@ pub struct Thresholds {
     pub in_band: bool,
     /// Whether a dither acts somewhere in the window.
     pub dithered: bool,
-    /// Largest slip speed that each contact reaches: of the responses at the thresholds and at both ends of the branch, and of the runs from their starts at the ends of
-    /// the window and at their changes, over a few periods of the vibration.
+    /// Largest slip speed that each contact reaches in the responses and runs.
     pub slip: Vec<f64>,
     /// Values at which nothing squeals without dither, so that the run from squeal starts from steady sliding.
     pub silent: Vec<f64>,
@@ -174,14 +168,12 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
         && at(&[to]).is_ok_and(|system| base_motion(&system, BASE_STEPS).is_ok());
     let silent = Mutex::new(Vec::new());
     let runs = request.protocols.iter().map(|protocol| {
-        let start = |value: f64, system: &System| match protocol.state(study, system) {
-            Err(_) if *protocol == Protocol::Squeal && slides_steadily(system) => {
-                if let Ok(mut silent) = silent.lock() {
-                    silent.push(value);
-                }
-                sliding_state(system).map_err(|why| why.to_string())
+        let start = |value: f64, system: &System| {
+            let (state, is_silent) = begin(study, system, protocol)?;
+            if is_silent && let Ok(mut silent) = silent.lock() {
+                silent.push(value);
             }
-            state => state.map_err(|why| why_of(&why)),
+            Ok(state)
         };
         let run =
             VariedRun { start: &start, ramp: request.ramp, at: &at, most_steps: STEPS_OF_A_SEARCH };
@@ -191,51 +183,55 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
     let in_band = [from, to]
         .iter()
         .any(|value| at(&[*value]).is_ok_and(|system| dither_reaches_the_band(&system)));
-    let slip = largest_slip(study, &at, request, (&local, &runs));
     let silent = silent.into_inner().unwrap_or_default();
-    let request = request.clone();
-    Ok(Thresholds { request, local, resumes, runs, in_band, dithered, slip, silent })
+    let (request, slip) = (request.clone(), Vec::new());
+    let found = Thresholds { request, local, resumes, runs, in_band, dithered, slip, silent };
+    let slip = found.slip(study, &at);
+    Ok(Thresholds { slip, ..found })
 }
 
-/// The largest slip speed that each contact reaches.
-fn largest_slip(
+/// The state from which a run starts, and whether nothing squeals, so that a run from squeal starts from steady sliding.
+fn begin(
     study: &SystemStudy,
-    at: &dyn Fn(&[f64]) -> Result<System, String>,
-    request: &ThresholdsRequest,
-    (local, runs): (&Result<MotionThresholds, NoMotionOrbit>, &[(Protocol, RunSwitches)]),
-) -> Vec<f64> {
-    let mut slip = vec![0.0; study.system().contacts.len()];
-    if study.system().contacts.iter().all(|contact| contact.friction.range().is_none()) {
-        return slip;
-    }
-    let row = study.observe();
-    let mut add = |value: f64, state: &dyn Fn(&System) -> Option<Vec<f64>>| {
-        let Ok(system) = at(&[value]) else { return };
-        let Some(state) = state(&system) else { return };
-        let slow =
-            vibration_frequency(&system).map_or(0.0, |frequency| SLOW_PERIODS * TAU / frequency);
-        let length = period(&system).map_or(slow, |period| slow.max(period));
-        let samples = CycleSamples::over(&system, &row, &state, length);
-        for (contact, slip) in slip.iter_mut().enumerate() {
-            *slip = samples.largest_slip(contact).max(*slip);
+    system: &System,
+    protocol: &Protocol,
+) -> Result<(Vec<f64>, bool), String> {
+    match protocol.state(study, system) {
+        Err(_) if *protocol == Protocol::Squeal && slides_steadily(system) => {
+            Ok((sliding_state(system).map_err(|why| why.to_string())?, true))
         }
-    };
-    if let Ok(local) = local {
-        let ends = [local.branch.first(), local.branch.last()].into_iter().flatten();
-        let ends = ends.map(|point| (point.value, &point.state));
-        let thresholds = local.thresholds.iter().map(|found| (found.value, &found.state));
-        for (value, state) in ends.chain(thresholds) {
-            add(value, &|_| Some(state.clone()));
-        }
+        state => Ok((state.map_err(|why| why_of(&why))?, false)),
     }
-    let ends = [request.window.0, request.window.1];
-    for (protocol, switches) in runs {
-        let changes = switches.changes.iter().map(|change| change.value);
-        for value in ends.into_iter().chain(changes) {
-            add(value, &|system| protocol.state(study, system).ok());
+}
+
+impl Thresholds {
+    /// The slip that the responses at the thresholds and at both ends of the branch reach, and the runs from their starts at the ends of the
+    /// window and at their changes.
+    fn slip(&self, study: &SystemStudy, at: &dyn Fn(&[f64]) -> Result<System, String>) -> Vec<f64> {
+        let mut slip = SlipReached::new(study.system());
+        if let Ok(local) = &self.local {
+            let ends = [local.branch.first(), local.branch.last()].into_iter().flatten();
+            let ends = ends.map(|point| (point.value, &point.state));
+            let thresholds = local.thresholds.iter().map(|found| (found.value, &found.state));
+            for (value, state) in ends.chain(thresholds) {
+                if let Ok(system) = at(&[value]) {
+                    slip.add(&system, state);
+                }
+            }
         }
+        let (from, to) = self.request.window;
+        for (protocol, switches) in &self.runs {
+            let changes = switches.changes.iter().map(|change| change.value);
+            for system in
+                [from, to].into_iter().chain(changes).filter_map(|value| at(&[value]).ok())
+            {
+                if let Ok((state, _)) = begin(study, &system, protocol) {
+                    slip.add(&system, &state);
+                }
+            }
+        }
+        slip.largest()
     }
-    slip
 }
 
 /// The changes of a run over a window, with the runs at its values side by side.
@@ -248,7 +244,7 @@ fn side_by_side(run: &VariedRun<'_>, window: (f64, f64)) -> RunSwitches {
 
 /// Whether steady sliding without dither is stable.
 fn slides_steadily(system: &System) -> bool {
-    local_verdict(&system.undithered()) == Ok("stable")
+    sliding_verdict(&system.undithered()) == Ok(Verdict::Stable)
 }
 
 /// The reason of a failure.

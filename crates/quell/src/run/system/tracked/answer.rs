@@ -12,7 +12,7 @@ use super::{StabilityCurve, SurfaceAtRest, TrackRequest, TrackedStability};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::criticality;
-use crate::run::system::oscillating;
+use crate::run::system::{oscillating, value_at};
 use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural};
 
@@ -104,8 +104,7 @@ impl TrackedStability {
 
     /// A value of the parameter with its unit.
     pub(crate) fn value(&self, study: &SystemStudy, value: f64) -> String {
-        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
-        format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+        value_at(study, &self.request.parameter, value)
     }
 
     /// As JSON.
