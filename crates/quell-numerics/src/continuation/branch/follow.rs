@@ -154,13 +154,8 @@ fn over_a_corner<F: PeriodMap>(
     let Follow { from, to, shortest, .. } = run.follow;
     let next = run.beyond(here, here.tangent.last()?.signum())?;
     let step_length = distance(&next.unknowns, &here.unknowns).max(10.0 * shortest);
-    out.push(run.special_point(
-        BifurcationKind::Border,
-        here,
-        step_length * (to - from).abs(),
-        here,
-        Some(&next),
-    ));
+    let error = (next.parameter() - here.parameter()).abs() * (to - from).abs();
+    out.push(run.special_point(BifurcationKind::Border, here, error, here, Some(&next)));
     Some((next, step_length))
 }
 

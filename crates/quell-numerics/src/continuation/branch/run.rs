@@ -3,8 +3,8 @@
 use num_complex::Complex64;
 
 use super::super::arc::{
-    self, MEETING, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, between, cosine, distance,
-    normalised, tangent,
+    self, FARTHEST_NUDGE, MEETING, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, between,
+    cosine, distance, normalised, tangent,
 };
 use super::super::threshold::BifurcationKind;
 use super::super::{Image, PeriodMap, multipliers, spectral_radius, unstable};
@@ -47,6 +47,25 @@ struct FixedPointEquations<'a, F: PeriodMap> {
     held: Option<&'a F::Signature>,
 }
 
+impl<F: PeriodMap> FixedPointEquations<'_, F> {
+    /// The derivative of the image with respect to the parameter, as a difference over an increment of it.
+    fn column(
+        &self,
+        unknowns: &[f64],
+        image: &Image<F::Signature>,
+        nudge: f64,
+    ) -> Result<Vec<f64>, F::Error> {
+        let mut moved = unknowns.to_vec();
+        if let Some(parameter) = moved.last_mut() {
+            *parameter += nudge;
+        }
+        let (state, parameter) = self.run.unscaled(&moved);
+        let other = self.run.family.image_state(&state, &[parameter], self.held)?;
+        let scale = self.run.family.scale() * nudge;
+        Ok(other.iter().zip(&image.state).map(|(b, a)| (b - a) / scale).collect())
+    }
+}
+
 impl<F: PeriodMap> UnderdeterminedSystem for FixedPointEquations<'_, F> {
     type Known = Image<F::Signature>;
     type Error = F::Error;
@@ -70,15 +89,15 @@ impl<F: PeriodMap> UnderdeterminedSystem for FixedPointEquations<'_, F> {
         let column: Vec<f64> = if let Some(before) = before {
             (0..n).map(|i| before[(i, n)]).collect()
         } else {
-            let towards = if heading[n] < 0.0 { -NUDGE } else { NUDGE };
-            let inside = (0.0..=1.0).contains(&(unknowns[n] + towards));
-            let nudge = if inside { towards } else { -towards };
-            let mut moved = unknowns.to_vec();
-            moved[n] += nudge;
-            let (state, parameter) = self.run.unscaled(&moved);
-            let other = self.run.family.image_state(&state, &[parameter], self.held)?;
-            let scale = self.run.family.scale() * nudge;
-            other.iter().zip(&image.state).map(|(b, a)| (b - a) / scale).collect()
+            let inside = (0.0..=1.0).contains(&(unknowns[n] + NUDGE.copysign(heading[n])));
+            let towards = if inside { heading[n] } else { -heading[n] };
+            let column = self.column(unknowns, image, NUDGE.copysign(towards))?;
+            let moves = NUDGE * column.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+            if moves > FARTHEST_NUDGE {
+                self.column(unknowns, image, (NUDGE * NUDGE / moves).copysign(towards))?
+            } else {
+                column
+            }
         };
         Ok(Matrix::from_fn(n, n + 1, |i, j| match j {
             j if j == n => column[i],

@@ -11,6 +11,11 @@ use crate::roots::{Closeness, find_root, minimise};
 /// First and last distance beyond a grazing point at which the branch is searched for, in the scaled parameter.
 const BEYOND: (f64, f64) = (1e-7, 2e-2);
 
+/// How many times further than the parameter the state may move before the first of these distances is shortened, and its least share: in
+/// a wide window the next border may be nearer than the unshortened one.
+const STEEP: f64 = 1e3;
+const LEAST_SHARE: f64 = 1e-4;
+
 /// Distance from the first of two solutions, kind, solution and error of a threshold between them.
 type FoundThreshold<S> = (f64, BifurcationKind, BranchSolution<S>, f64);
 
@@ -232,8 +237,10 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         let n = grazing.unknowns.len() - 1;
         let (state, _) = self.unscaled(&grazing.unknowns);
         let share = grazing.unknowns[n];
+        let slope = grazing.tangent[n].abs() * STEEP;
+        let nearest = BEYOND.0 * slope.clamp(LEAST_SHARE, 1.0);
         for side in [towards, -towards] {
-            let mut away = BEYOND.0;
+            let mut away = nearest;
             while away <= BEYOND.1 {
                 let far = share + side * away;
                 if (0.0..=1.0).contains(&far)
