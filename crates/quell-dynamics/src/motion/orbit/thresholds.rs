@@ -5,7 +5,9 @@
 
 use quell_linear::criticality::of_steady_sliding;
 use quell_model::System;
-use quell_numerics::continuation::branch::{BranchSide, Follow, SpecialPoint, follow};
+use quell_numerics::continuation::branch::{
+    BranchSide, FixedPointBranch, Follow, SpecialPoint, follow,
+};
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov, first_lyapunov};
 use quell_numerics::continuation::fold::{FoldCoefficient, fold_coefficient};
 use quell_numerics::continuation::spectral_radius;
@@ -114,7 +116,8 @@ pub fn motion_thresholds(
     let branch = follow(&family, &state, from, to > from, Follow::window(from, to, steps))?;
     let mut thresholds = Vec::new();
     for point in &branch.special_points {
-        let (was, becomes) = (verdict(point.below.as_ref()), verdict(point.above.as_ref()));
+        let was = verdict(&branch, point, Side::Below);
+        let becomes = verdict(&branch, point, Side::Above);
         if was == becomes {
             continue;
         }
@@ -172,8 +175,39 @@ fn signature_change(point: &SpecialPoint<MotionSignature>) -> Option<MotionSigna
     (is_contact && below != above).then_some(MotionSignatureChange { value, below, above })
 }
 
-fn verdict(side: Option<&BranchSide<MotionSignature>>) -> Option<OrbitVerdict> {
-    side.map(|side| OrbitVerdict::of(side.radius, 0.0))
+/// A side of a special point.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Below,
+    Above,
+}
+
+/// The verdict on a side of a special point. Where multipliers tend to the unit circle at the point itself, as those of a stick do whose
+/// surface stops, it is that of the nearest response on that side, if nothing else changes up to it.
+fn verdict(
+    branch: &FixedPointBranch<MotionSignature>,
+    point: &SpecialPoint<MotionSignature>,
+    on: Side,
+) -> Option<OrbitVerdict> {
+    let side = if on == Side::Below { &point.below } else { &point.above }.as_ref()?;
+    let verdict = OrbitVerdict::of(side.radius, 0.0);
+    if verdict != OrbitVerdict::Undecided {
+        return Some(verdict);
+    }
+    let away = |value: f64| match on {
+        Side::Below => point.parameter - value,
+        Side::Above => value - point.parameter,
+    };
+    let special = branch.special_points.iter().map(|other| away(other.parameter));
+    let next = special.filter(|away| *away > 0.0).fold(f64::INFINITY, f64::min);
+    let decided = branch.points.iter().filter_map(|response| {
+        let verdict = OrbitVerdict::of(spectral_radius(&response.multipliers), 0.0);
+        let away = away(response.parameter);
+        let is_near = away > 0.0 && away < next && response.signature == side.signature;
+        (is_near && verdict != OrbitVerdict::Undecided).then_some((away, verdict))
+    });
+    let nearest = decided.min_by(|a, b| a.0.total_cmp(&b.0));
+    Some(nearest.map_or(verdict, |(_, verdict)| verdict))
 }
 
 /// The coefficient that decides whether the bifurcation is supercritical.

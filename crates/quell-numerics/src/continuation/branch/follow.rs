@@ -1,9 +1,9 @@
 //! Continuation of a branch of fixed points by pseudo-arclength.
 
-use super::super::PeriodMap;
 use super::super::arc::{self, cosine, distance};
 use super::super::shooting::{NotClosed, Shooting, fixed_point};
 use super::super::threshold::{BifurcationKind, SMOOTH, Tests};
+use super::super::{PeriodMap, unstable};
 use super::parameter_window::Follow;
 use super::points::{End, FixedPointBranch, SpecialPoint};
 use super::run::{BranchSolution, ContinuationRun, MaybeSolution, StepOutcome};
@@ -135,6 +135,9 @@ fn over_an_obstacle<F: PeriodMap>(
     out: &mut Vec<SpecialPoint<F::Signature>>,
 ) -> Option<(BranchSolution<F::Signature>, f64)> {
     if !searched_beyond {
+        if let Some(joined) = over_a_kink(run, here) {
+            return Some(joined);
+        }
         let smoother = run.onto_smoother_piece(here, out);
         let smoother = smoother.map(|next| (next, 100.0 * run.follow.shortest));
         if let Some(joined) = smoother.or_else(|| over_a_corner(run, here, out)) {
@@ -143,6 +146,31 @@ fn over_an_obstacle<F: PeriodMap>(
     }
     *leaps += 1;
     (*leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
+}
+
+/// Length of the steps over a kink, over the shortest one.
+const KINK_STEPS: [f64; 2] = [10.0, 100.0];
+
+/// Least cosine of the angle by which a branch turns at a kink: less could be a way back.
+const KINK: f64 = 0.5;
+
+/// The point just beyond a kink, and the distance to it: where an event passes t = 0, the state there changes its direction, and the
+/// events stay what they are.
+fn over_a_kink<F: PeriodMap>(
+    run: &ContinuationRun<'_, F>,
+    here: &BranchSolution<F::Signature>,
+) -> Option<(BranchSolution<F::Signature>, f64)> {
+    KINK_STEPS.iter().find_map(|steps| {
+        let length = steps * run.follow.shortest;
+        let pairs = here.unknowns.iter().zip(&here.tangent);
+        let predicted: Vec<f64> = pairs.map(|(u, t)| u + length * t).collect();
+        let next = run.at(&predicted, &here.tangent, None, None)?;
+        let is_joined = next.image.signature == here.image.signature
+            && distance(&next.unknowns, &predicted) <= length
+            && cosine(&next.tangent, &here.tangent) > KINK
+            && unstable(&next.multipliers) == unstable(&here.multipliers);
+        is_joined.then_some((next, length))
+    })
 }
 
 /// The point beyond a corner that no step can follow, and the distance to it, if the branch continues there.
