@@ -1,6 +1,6 @@
 //! The answer of `orbit` in sentences, JSON and a dataset.
 
-use quell_dynamics::motion::orbit::{MotionOrbit, without_cycle};
+use quell_dynamics::motion::orbit::{MotionOrbit, NoMotionOrbit, without_cycle};
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::EventKind;
@@ -136,7 +136,9 @@ pub fn sentence(study: &SystemStudy, found: &FoundMotion) -> String {
     let verdict = verdict_in_words(orbit);
     let instead = match &found.by {
         FoundBy::Run { instead: Some(why), .. } => {
-            format!(" It replaces the base response, which does not exist: {why}.")
+            let is_known = matches!(why, NoMotionOrbit::Ends { .. } | NoMotionOrbit::NoSliding(_));
+            let fact = if is_known { "does not exist" } else { "was not found" };
+            format!(" It replaces the base response, which {fact}: {why}.")
         }
         _ => String::new(),
     };
@@ -361,7 +363,7 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
     if let FoundBy::Run { start, periods, instead } = &found.by {
         fields.plain("start", start.clone()).plain("periods_to_settle", *periods);
         if let Some(why) = instead {
-            fields.plain("no_base_response", why.clone());
+            fields.plain("no_base_response", why.to_string());
         }
     }
     if let FoundBy::FreeRun { start } = &found.by {

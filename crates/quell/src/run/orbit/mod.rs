@@ -62,7 +62,7 @@ pub enum FoundBy {
         /// Dither periods until the run was near it.
         periods: u32,
         /// Why it replaces the base response, if that was wanted.
-        instead: Option<String>,
+        instead: Option<NoMotionOrbit>,
     },
     /// It is one of all limit cycles of a single mass.
     Map,
@@ -167,7 +167,6 @@ fn reached(
     let words = protocol.words(study);
     match settled(system, &start) {
         Ok(SettledMotion { orbit, multiple, periods }) => {
-            let instead = instead.map(|why| why.to_string());
             Ok((orbit, multiple, FoundBy::Run { start: words, periods, instead }))
         }
         Err(why) => Err(match instead {
