@@ -30,9 +30,19 @@ pub fn is_above_the_band(system: &System, period: f64) -> bool {
 }
 
 /// Whether a motion with the period of the dither, common to all of its waves where there is one, may vibrate in the band itself: a run in
-/// step with it is then not quenched.
+/// step with it is then not necessarily quiet.
 pub fn dither_reaches_the_band(system: &System) -> bool {
-    let slowest = || system.waves().map(Wave::repetition).fold(f64::INFINITY, f64::min);
-    let lowest = period(system).map_or_else(slowest, |period| TAU / period);
+    let lowest = period(system).map_or_else(|| slowest_repetition(system), |period| TAU / period);
     vibration_frequency(system).is_some_and(|vibration| lowest <= BAND_END * vibration)
+}
+
+/// Whether a wave by itself repeats in the band or below: it then is a slow vibration itself. Of several fast waves only combinations are
+/// slow.
+pub fn wave_reaches_the_band(system: &System) -> bool {
+    let lowest = slowest_repetition(system);
+    vibration_frequency(system).is_some_and(|vibration| lowest <= BAND_END * vibration)
+}
+
+fn slowest_repetition(system: &System) -> f64 {
+    system.waves().map(Wave::repetition).fold(f64::INFINITY, f64::min)
 }

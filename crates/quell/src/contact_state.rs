@@ -2,8 +2,6 @@
 //! model.
 
 use quell_linear::averaging::DitheredContact;
-use quell_model::parameter::BRISTLE_DAMPING;
-use quell_model::units::Scales;
 use quell_model::{Belt, Contact, Direction, Friction, System};
 use serde_json::Value as Json;
 
@@ -16,7 +14,7 @@ use crate::words::digits;
 const LARGE: f64 = 30.0;
 
 /// Verbs of belts that know the state of a contact; `simulate` and `friction` ask nothing here.
-const OF_BELTS_WITH_STATES: &[&str] = &["response", "waveforms", "design", "map"];
+const OF_BELTS_WITH_STATES: &[&str] = &["response", "design", "map"];
 
 /// Verbs of systems about motions that repeat.
 const OF_PERIODIC_DITHER: &[&str] = &[
@@ -95,35 +93,12 @@ pub(crate) fn refused_where_averaged(system: &System, verb: &str) -> Result<(), 
     Err(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed).into())
 }
 
-/// A warning where the bristles of a law supply energy.
-fn not_passive(law: &Friction, of: &str, scales: Option<Scales>) -> Option<String> {
-    let Friction::Lugre(law) = law else { return None };
-    let (most, damping) = (law.largest_passive_damping()?, law.bristle_damping());
-    let per_unit = scales.map_or(1.0, |scales| scales.per_unit(BRISTLE_DAMPING.quantity));
-    let unit = scales.map_or("", |_| " s/m");
-    (damping > most).then(|| {
-        format!(
-            "the friction force{of} is not passive: the bristle damping {}{unit} exceeds viscous·coefficient/(static_coefficient − \
-             coefficient) = {}{unit} (Barabanov and Ortega 2000)",
-            digits(per_unit * damping),
-            digits(per_unit * most)
-        )
-    })
-}
-
-/// Warnings about the contact of a belt in any verb.
-pub(crate) fn passivity(belt: &Belt) -> Option<String> {
-    not_passive(belt.friction(), "", belt.scales())
-}
-
-/// Warnings about the contacts of a system in any verb.
-pub(crate) fn passivity_of_system(study: &SystemStudy) -> Vec<String> {
-    let contacts = &study.system().contacts;
-    let of = |contact: &Contact| format!(" of contact {}", contact.name);
-    contacts
-        .iter()
-        .filter_map(|contact| not_passive(&contact.friction, &of(contact), None))
-        .collect()
+/// Warnings about the contact of a belt in any verb. Those of a system are among the warnings of its study.
+pub(crate) fn passivity(study: &BeltStudy) -> Vec<String> {
+    study.system().map_or_else(
+        |_| Vec::new(),
+        |system| crate::study::passivity::warnings(&system.contacts, study.units()),
+    )
 }
 
 /// Warnings where the average of the law without its state differs from that of the contact of a belt.

@@ -30,7 +30,10 @@ mod system_response;
 
 pub use quell_numerics::spectrum::{Peak, Spectrum};
 
-pub use crate::band::{BAND_END, dither_reaches_the_band, is_above_the_band, vibration_frequency};
+pub use crate::band::{
+    BAND_END, dither_reaches_the_band, is_above_the_band, vibration_frequency,
+    wave_reaches_the_band,
+};
 pub use dither_lines::stroke_is_measured;
 pub use effect::{Effect, QUENCHED, RunEnding, SUPPRESSED, Uncertain, Vibrations, effect};
 pub use effective::{

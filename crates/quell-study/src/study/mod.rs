@@ -33,6 +33,7 @@ pub(crate) mod dither_size;
 mod friction;
 mod kind;
 mod model;
+pub mod passivity;
 mod path;
 pub mod plausible;
 mod reader;

@@ -12,7 +12,7 @@ use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
     actuator, atlas, basins, belt_system, bifurcation, describing, design, friction,
-    noise_response, orbit, probability, response, simulate, stability, waveforms, window,
+    noise_response, orbit, probability, response, simulate, stability, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -131,7 +131,7 @@ impl Verbs for BeltStudy {
     }
 
     fn waveforms(&self) -> Reply {
-        answer(self, waveforms::run(self))
+        belt_system::of(self, "waveforms")?.waveforms()
     }
 
     fn bifurcation(&self, request: &bifurcation::SweepRequest, running: Running<'_>) -> Reply {

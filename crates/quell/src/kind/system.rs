@@ -18,13 +18,13 @@ use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
     actuator, design, exact, friction, measured, modes, reach, response, simulate, stability,
-    tracked, waveforms,
+    tracked,
 };
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
     bifurcation, describing, found_attractor, noise_response, orbit, probability, ramp, thresholds,
-    window,
+    waveforms, window,
 };
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;

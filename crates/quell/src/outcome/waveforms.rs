@@ -12,67 +12,38 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::waveforms::{COLUMNS, ComparedWaveform, CostColumn, RankedBy, WaveformComparison};
-use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
-
-impl Presented<BeltSetup> for WaveformComparison {
-    fn json(&self, study: &BeltStudy) -> Json {
-        self.json_of_belt(study)
-    }
-
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(self.of_belt_in_words(study))
-    }
-
-    fn table(&self, study: &BeltStudy) -> String {
-        table(self, |quantity| match study.scales().and_then(|scales| scales.one(quantity)) {
-            Some((one, unit)) => (one, Some(unit)),
-            None => (1.0, None),
-        })
-    }
-
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("waveforms", self.dataset_of_belt(study))]
-    }
-
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::waveforms(study, self)))
-    }
-}
+use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for WaveformComparison {
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
-        self.json_of_system(study)
+        self.json(study)
     }
 
     fn sentence(&self, study: &SystemStudy) -> Option<String> {
-        Some(self.of_system_in_words(study))
+        Some(self.sentence(study))
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        table(self, |quantity| (1.0, study.units().unit(quantity)))
+        table(self, |quantity| study.units().unit(quantity))
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("waveforms", self.dataset_of_system(study))]
+        vec![("waveforms", self.dataset(study))]
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::waveforms_of_system(study, self)))
+        Some(Ok(picture::waveforms(study, self)))
     }
 }
 
-/// One line per waveform, with the costs at the amplitude that ranks it; the smallest value of each column has an asterisk. Printed values are
-/// those of the equations times a scale, in a unit.
-fn table(
-    done: &WaveformComparison,
-    printed: impl Fn(Quantity) -> (f64, Option<&'static str>),
-) -> String {
+/// One line per waveform, with the costs at the amplitude that ranks it; the smallest value of each column has an asterisk.
+fn table(done: &WaveformComparison, unit_of: impl Fn(Quantity) -> Option<&'static str>) -> String {
     let width = done.rows.iter().map(|row| row.label().chars().count()).max().unwrap_or(0);
     let mut text = format!("  {:<width$}  {:>10}", "waveform", "duty cycle");
     let unit =
-        |quantity: Quantity| printed(quantity).1.map_or(String::new(), |unit| format!("/{unit}"));
+        |quantity: Quantity| unit_of(quantity).map_or(String::new(), |unit| format!("/{unit}"));
     let [_, costs @ ..] = &COLUMNS;
     for words in ["averaging", "exact"] {
         let _ = write!(text, "  {:>14}", format!("{words}{}", unit(Quantity::Force)));
@@ -82,9 +53,9 @@ fn table(
     }
     text.push('\n');
     let by = done.ranked_by();
-    let cell = |value: Option<f64>, quantity: Quantity, is_best: bool| {
+    let cell = |value: Option<f64>, is_best: bool| {
         let mark = if is_best { "*" } else { "" };
-        let value = value.map(|value| figure(value * printed(quantity).0));
+        let value = value.map(figure);
         value.map_or_else(|| "none".to_owned(), |value| format!("{value}{mark}"))
     };
     for row in &done.rows {
@@ -96,11 +67,11 @@ fn table(
             [(RankedBy::Averaging, averaged), (RankedBy::Exact, row.exact.clone().ok())]
         {
             let best = by == way && is_best(&COLUMNS[0]);
-            let _ = write!(text, "  {:>14}", cell(value, Quantity::Force, best));
+            let _ = write!(text, "  {:>14}", cell(value, best));
         }
         for column in costs {
             let value = done.ranked(row, column);
-            let _ = write!(text, "  {:>14}", cell(value, column.quantity, is_best(column)));
+            let _ = write!(text, "  {:>14}", cell(value, is_best(column)));
         }
         text.push('\n');
     }
@@ -112,13 +83,12 @@ fn table(
             RankedBy::Averaging => "amplitude of averaging",
         }
     );
-    let (scale, unit) = printed(Quantity::Force);
-    text.push_str(&notes(done, scale, unit));
+    text.push_str(&notes(done, unit_of(Quantity::Force)));
     text
 }
 
 /// Why values are missing, and where larger amplitudes destabilise.
-fn notes(done: &WaveformComparison, scale: f64, unit: Option<&str>) -> String {
+fn notes(done: &WaveformComparison, unit: Option<&str>) -> String {
     let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
     let of = |row: &ComparedWaveform| {
         let averaged = row.averaged.as_ref().err().cloned();
@@ -129,9 +99,8 @@ fn notes(done: &WaveformComparison, scale: f64, unit: Option<&str>) -> String {
         let exact = row.exact.as_ref().err().filter(|why| Some(*why) != averaged.as_ref());
         let exact = exact.map(|why| format!("no exact amplitude: {why}"));
         let until = row.averaged.as_ref().ok().and_then(|least| least.until);
-        let until = until.map(|until| {
-            format!("by averaging unstable again from {}{unit} on", figure(until * scale))
-        });
+        let until = until
+            .map(|until| format!("by averaging unstable again from {}{unit} on", figure(until)));
         [averaged, power, exact, until].into_iter().flatten()
     };
     joined_notes(done.rows.iter().flat_map(|row| {

@@ -52,7 +52,7 @@ pub use simulate::simulate;
 pub use stability::stability;
 pub use sweep::sweep;
 pub use thresholds::{curves, thresholds};
-pub use waveforms::{waveforms, waveforms_of_system};
+pub use waveforms::waveforms;
 
 use crate::complaint::Failure;
 use crate::output::Output;

@@ -2,11 +2,11 @@
 
 use quell_numerics::order::ascending_by;
 
-use super::caption::{caption, caption_of_system};
+use super::caption::caption_of_system;
 use super::ruler::Ruler;
 use crate::plot::{Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend};
 use crate::run::waveforms::{COLUMNS, CostColumn, RankedBy, WaveformComparison};
-use crate::study::{BeltStudy, SystemStudy};
+use crate::study::SystemStudy;
 
 /// A waveform as a picture shows it.
 struct CostMark {
@@ -31,26 +31,13 @@ struct CostPanel<'a> {
 }
 
 /// One panel for amplitude, rms force, power and stroke.
-pub fn waveforms(study: &BeltStudy, done: &WaveformComparison) -> Figure {
-    let ruler =
-        |column: &CostColumn, marks: &[CostMark]| Ruler::of(study, column.quantity, shown(marks));
-    figure(done, ruler, true).title(study.title().unwrap_or_default()).caption(format!(
-        "{}; {}",
-        caption(study),
-        shown_in_words(done)
-    ))
-}
-
-/// The same for a system, whose structure responds differently to each length of a burst.
-pub fn waveforms_of_system(study: &SystemStudy, done: &WaveformComparison) -> Figure {
+pub fn waveforms(study: &SystemStudy, done: &WaveformComparison) -> Figure {
     let ruler = |column: &CostColumn, marks: &[CostMark]| {
         Ruler::of_system(study, column.quantity, shown(marks))
     };
-    figure(done, ruler, false).title(study.title().unwrap_or_default()).caption(format!(
-        "{}; {}",
-        caption_of_system(study),
-        shown_in_words(done)
-    ))
+    figure(done, ruler, study.system().one_mass().is_some())
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{}; {}", caption_of_system(study), shown_in_words(done)))
 }
 
 /// The panels; `is_mass` of a mass, whose response to bursts depends on the duty cycle alone.

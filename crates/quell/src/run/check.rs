@@ -99,7 +99,7 @@ impl Check<'_> {
             inner
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
-        let warnings = range::averaged(study).into_iter().chain(passivity(study.belt()));
+        let warnings = range::averaged(study).into_iter().chain(passivity(study));
         let in_units = belt.system_in_units().and_then(Result::ok);
         let magnitudes = in_units.map(|system| plausible::warnings(&system, study.units(), false));
         let warnings = warnings.chain(magnitudes.into_iter().flatten());

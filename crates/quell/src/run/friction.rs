@@ -282,7 +282,7 @@ impl FrictionCurve {
         let fastest = speeds.fold(study.belt().belt_velocity(), f64::max);
         let mut warnings = range::averaged_at(study, fastest);
         let belt = study.belt();
-        warnings.extend(contact_state::passivity(belt));
+        warnings.extend(contact_state::passivity(study));
         warnings.extend(few_lines(belt));
         if belt.has_contact_state() {
             let slowest = self.points.iter().map(|point| point.slip_velocity.abs());

@@ -302,7 +302,7 @@ impl MeasuredResponse {
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
         let mut warnings = self.slip.warnings(study);
-        warnings.extend(passivity(study.belt()));
+        warnings.extend(passivity(study));
         let mut warn = |which: &str, settled: bool| {
             if !settled {
                 warnings.push(format!(

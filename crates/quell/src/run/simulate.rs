@@ -327,7 +327,7 @@ impl Simulation {
     /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
-        warnings.extend(passivity(study.belt()));
+        warnings.extend(passivity(study));
         if self.coarse {
             warnings.push(format!(
                 "only {MOST_SAMPLES} samples are kept, too few to resolve the dither"

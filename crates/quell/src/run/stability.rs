@@ -346,7 +346,7 @@ impl BeltStability {
         let belt = study.belt();
         let rigid = contact_state::rigid_average(belt, belt.belt_velocity());
         let bristles = self.of_bristles(belt);
-        let state = contact_state::passivity(belt).into_iter().chain(rigid).chain(bristles);
+        let state = contact_state::passivity(study).into_iter().chain(rigid).chain(bristles);
         hardly
             .chain(apart)
             .chain(range)

@@ -15,7 +15,7 @@ use super::system::simulate::{beyond_laws_of, of_engine, put_means};
 use super::system::start::start_of;
 use super::system::{has_equations, velocity_in_words};
 use crate::complaint::{Complaint, Failure};
-use crate::contact_state::{passivity, passivity_of_system};
+use crate::contact_state::passivity;
 use crate::fields::Fields;
 use crate::study::{BeltStudy, SystemStudy};
 use crate::words::in_words;
@@ -52,7 +52,7 @@ pub fn of_belt(study: &BeltStudy, window: (f64, f64)) -> Result<WindowedResponse
     let start = motion_start(&system, begin(study)?);
     let words = |speed| in_words(study, Quantity::Velocity, speed);
     let mut found = measured(&system, &[1.0], &start, window, words)?;
-    found.warnings.extend(passivity(study.belt()));
+    found.warnings.extend(passivity(study));
     Ok(found)
 }
 
@@ -64,7 +64,7 @@ pub fn of_system(study: &SystemStudy, window: (f64, f64)) -> Result<WindowedResp
     has_equations(study, "response")?;
     let words = |speed| velocity_in_words(study, speed);
     let mut found = measured(study.system(), &study.observe(), &start_of(study)?, window, words)?;
-    found.warnings.extend(study.warnings().iter().cloned().chain(passivity_of_system(study)));
+    found.warnings.extend(study.warnings().iter().cloned());
     Ok(found)
 }
 

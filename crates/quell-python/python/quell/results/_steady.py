@@ -501,10 +501,10 @@ class Waveforms(_columns.WaveformsColumns, Result):
     """The least dither of each waveform that quenches, and its cost; arrays over the waveforms (n,)."""
 
     verb = "waveforms"
-    carrier: str | None
-    """Belt: carrier of the bursts."""
+    carrier: str
+    """Carrier of the bursts."""
     waveforms: list[dict[str, Any]]
-    """Each waveform: ``waveform``, ``label``, ``own``, ``duty_cycle``; by averaging ``amplitude_ratio``, ``amplitude``,
+    """Each waveform: ``waveform``, ``label``, ``own``, ``duty_cycle``; whether averaging cannot rank it (``slow``); by averaging ``amplitude``,
     ``root_mean_square``, ``power``, ``stroke``, ``velocity``, ``until``; at the exact amplitude the same with ``exact_``; of bursts ``on``
     and ``off``."""
     ranked_by: str
@@ -514,7 +514,7 @@ class Waveforms(_columns.WaveformsColumns, Result):
 
     @property
     def duty_cycle(self) -> npt.NDArray[np.float64] | None:
-        """Belt: share of the period in which the dither acts (n,): 1 except for bursts."""
+        """Share of the period in which the dither acts (n,): 1 except for bursts."""
         found = self.arrays.get("duty_cycle")
         return None if found is None else found.values
 

@@ -22,9 +22,9 @@ use crate::study::actuator;
 use crate::study::design::{self, DesignContext};
 use crate::study::dither_size::GivenSize;
 use crate::study::path::amplitude_of;
-use crate::study::plausible;
 use crate::study::reader::{NumbersByName, Reader};
 use crate::study::vocabulary::{Choice, Section};
+use crate::study::{passivity, plausible};
 use quell_model::units::UnitSystem;
 
 /// Adds what is valid but unlikely, or without effect, to the study of a system that was read from a document.
@@ -33,6 +33,7 @@ pub(super) fn with_warnings(setup: SystemSetup, document: &Table) -> SystemSetup
     let known = KnownSystem { system: &setup.system, measured: setup.response.is_some() };
     let mut warnings = warnings(document, table, (setup.units, &setup.named), known);
     warnings.extend(setup.warnings);
+    warnings.extend(passivity::warnings(&setup.system.contacts, setup.units));
     SystemSetup { warnings, ..setup }
 }
 

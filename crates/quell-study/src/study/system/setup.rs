@@ -13,6 +13,7 @@ use quell_model::units::UnitSystem;
 use super::initial::SystemStart;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
+use crate::study::passivity;
 use crate::study::path;
 use crate::study::reader::{EquationScale, NumbersByName, Reader};
 use crate::study::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};
@@ -65,7 +66,8 @@ pub struct DescribedSystem {
 
 impl From<DescribedSystem> for SystemSetup {
     fn from(described: DescribedSystem) -> Self {
-        let DescribedSystem { system, units, observe, initial, warnings, time } = described;
+        let DescribedSystem { system, units, observe, initial, mut warnings, time } = described;
+        warnings.extend(passivity::warnings(&system.contacts, units));
         Self {
             system: Arc::new(system),
             observe,

@@ -170,7 +170,7 @@ struct Scene {
 }
 
 /// The starts of one task.
-struct Part {
+struct StartsOfTask {
     ends: PartEnds,
     /// The largest slip speed that they reach at each contact.
     slip: Vec<f64>,
@@ -262,7 +262,7 @@ impl BasinsPlan<'_> {
             Ok(ends)
         });
         let mut ends = ends.collect::<Result<Vec<_>, Failure>>()?.into_iter();
-        let each: Vec<(&Scene, Option<&AttractorSettings<'_>>, Vec<Part>)> = self
+        let each: Vec<(&Scene, Option<&AttractorSettings<'_>>, Vec<StartsOfTask>)> = self
             .scenes
             .iter()
             .zip(&settings)
@@ -279,7 +279,7 @@ impl BasinsPlan<'_> {
         scene: &Scene,
         settings: Option<&AttractorSettings<'_>>,
         part: &[[f64; 2]],
-    ) -> Part {
+    ) -> StartsOfTask {
         let states = part.iter().map(|values| {
             let mut state = scene.begun.clone();
             for (place, value) in self.places.iter().zip(values) {
@@ -298,7 +298,7 @@ impl BasinsPlan<'_> {
         } else {
             PartEnds::Each(ends_of_runs(system, &scene.study.observe(), &states))
         };
-        Part { ends, slip: slip.largest() }
+        StartsOfTask { ends, slip: slip.largest() }
     }
 
     /// The starts of one value grouped by motion.
@@ -306,7 +306,7 @@ impl BasinsPlan<'_> {
         &self,
         scene: &Scene,
         settings: Option<&AttractorSettings<'_>>,
-        parts: &[Part],
+        parts: &[StartsOfTask],
     ) -> Result<Portrait, Failure> {
         let mut settled: Vec<Result<Settled, Stalled>> = Vec::new();
         let mut each: Vec<Result<EndOfRun, String>> = Vec::new();

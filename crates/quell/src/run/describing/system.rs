@@ -119,7 +119,6 @@ fn warnings(study: &SystemStudy, average: &AveragedSliding, largest: f64) -> Vec
             velocity_in_words(study, speed)
         })
     }));
-    warnings.extend(contact_state::passivity_of_system(study));
     warnings.extend(contact_state::averaged_without_states(system, &average.contacts));
     warnings.extend(few_lines_of_system(system));
     warnings

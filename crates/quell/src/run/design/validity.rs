@@ -7,7 +7,7 @@ use quell_model::Waveform;
 use super::found::{DesignNumber, DesignNumbers, DesignedDither, LeastDitherFound};
 use super::study_with_design::StudyWithDesign;
 use crate::run::waveforms::label;
-use quell_dynamics::response::dither_reaches_the_band;
+use quell_dynamics::response::wave_reaches_the_band;
 
 /// A dither of an answer, and operating points at which the answer says that it is quiet.
 pub(super) struct ClaimedDither<'a> {
@@ -66,7 +66,7 @@ impl DesignNumbers {
     ) -> bool {
         let reaches = |point: &Vec<f64>| {
             let system = study.system_with(waveform, &self.at(dither, point));
-            system.is_ok_and(|system| dither_reaches_the_band(&system))
+            system.is_ok_and(|system| wave_reaches_the_band(&system))
         };
         dither.points.iter().any(reaches)
     }

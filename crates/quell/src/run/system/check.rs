@@ -6,7 +6,6 @@ use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::actuator::designed;
-use crate::contact_state::passivity_of_system;
 use crate::noise;
 use crate::removed_mean;
 use crate::run::actuator::beyond_actuator;
@@ -112,7 +111,6 @@ fn dithers(study: &SystemStudy) -> Vec<Json> {
 /// Warnings of the study, about friction that is not passive, and about the means of samples.
 fn warnings(study: &SystemStudy) -> Vec<String> {
     let mut warnings = study.warnings().to_vec();
-    warnings.extend(passivity_of_system(study));
     warnings.extend(beyond_actuator(study.system(), study.actuator(), designed(study)));
     let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
     warnings.extend(removed_mean::warnings(waves.map(|wave| &wave.waveform)));

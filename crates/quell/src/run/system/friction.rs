@@ -13,7 +13,6 @@ use serde_json::Value as Json;
 
 use super::{has_equations, velocity_in_words};
 use crate::complaint::Failure;
-use crate::contact_state::passivity_of_system;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::noise::few_lines_of_system;
@@ -69,7 +68,6 @@ pub fn run(study: &SystemStudy, at: Option<&[f64]>) -> Result<SystemFriction, Fa
     };
     let contacts: Vec<ContactFriction> = system.contacts.iter().enumerate().map(of).collect();
     let mut warnings = study.warnings().to_vec();
-    warnings.extend(passivity_of_system(study));
     warnings.extend(few_lines_of_system(system));
     warnings.extend(contacts.iter().zip(&system.contacts).filter_map(|(found, contact)| {
         let speeds = found.curve.points.iter().map(|point| point.slip_velocity.abs());

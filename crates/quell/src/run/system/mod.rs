@@ -20,7 +20,6 @@ pub mod start;
 pub mod tracked;
 mod trajectory;
 pub mod validity;
-pub mod waveforms;
 
 use quell_linear::averaging::NoAverage;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion};

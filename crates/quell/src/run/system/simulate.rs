@@ -18,7 +18,6 @@ use super::sound::{self, MotionSoundTap};
 use super::start::{StateNumbers, start_in_words, start_with, state_in_words, state_names};
 use super::{failed, has_equations, in_units_of, modes, velocity_in_words};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::passivity_of_system;
 use crate::fields::Fields;
 use crate::range;
 use crate::run::manoeuvre::{Manoeuvre, SampledMotion};
@@ -406,7 +405,6 @@ impl SystemSimulation {
     /// Warnings about the result.
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let mut warnings = study.warnings().to_vec();
-        warnings.extend(passivity_of_system(study));
         warnings.extend(self.beyond.iter().cloned());
         warnings.extend(of_engine(study.system(), &self.end));
         if self.coarse {

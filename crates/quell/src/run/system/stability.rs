@@ -73,9 +73,6 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     let mut warnings = study.warnings().to_vec();
     warnings.extend(outside_of_laws(system, |speed| velocity_in_words(study, speed), None));
     if !system.is_dithered() {
-        warnings.extend(contact_state::passivity_of_system(study));
-    }
-    if !system.is_dithered() {
         let contacts = linear.contacts().iter().zip(linear.friction());
         let contacts = contacts
             .map(|(contact, friction)| SlidingContact {
@@ -107,7 +104,6 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     warnings.extend(opened(study.units(), system, &average.contacts));
     warnings.extend(not_slow(study, &undithered));
     warnings.extend(few_lines_of_system(system));
-    warnings.extend(contact_state::passivity_of_system(study));
     warnings.extend(contact_state::averaged_without_states(system, &average.contacts));
     let dither = Some(UnderDither { undithered, critical });
     Ok(SystemStability { spectrum, contacts, dither, warnings })

@@ -9,7 +9,8 @@ use quell_model::Waveform;
 use quell_model::units::Quantity;
 
 use super::label;
-use crate::fields::Fields;
+use crate::run::system::in_units;
+use crate::study::SystemStudy;
 
 /// The cost of a dither of unit amplitude.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,8 +28,6 @@ pub struct WaveformCost {
 /// The least dither of one waveform that quenches by averaging.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastDither {
-    /// α: the amplitude over the frequency.
-    pub amplitude_ratio: f64,
     /// The amplitude.
     pub amplitude: f64,
     /// The larger amplitude from which sliding is unstable again, if any.
@@ -176,8 +175,9 @@ impl WaveformComparison {
         self.rows.iter().find(|row| row.waveform.name() == self.carrier)
     }
 
-    /// The result in a few sentences; `force` writes an amplitude, and `sliding` is the sliding that is stabilised, in words.
-    pub(crate) fn sentence(&self, force: impl Fn(f64) -> String, sliding: &str) -> String {
+    /// The result in a few sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let force = |value: f64| in_units(study.units(), Quantity::Force, value);
         let [amplitude, _, power, ..] = &COLUMNS;
         let Some(best) = self.best(amplitude) else { return self.without_best() };
         let value = self.ranked(best, amplitude).map(&force).unwrap_or_default();
@@ -189,21 +189,21 @@ impl WaveformComparison {
         };
         let mut text = match (self.ranked_by(), count == self.rows.len(), count) {
             (RankedBy::Exact, true, _) => format!(
-                "{of} {} stabilises {sliding} with the least amplitude, {value}, by exact thresholds at the study's frequency.",
+                "{of} {} stabilises steady sliding with the least amplitude, {value}, by exact thresholds at the study's frequency.",
                 named(best)
             ),
             (RankedBy::Exact, false, 1) => format!(
-                "{of} an exact amplitude that stabilises {sliding} at the study's frequency is {}, with {value}.",
+                "{of} an exact amplitude that stabilises steady sliding at the study's frequency is {}, with {value}.",
                 named(best)
             ),
             (RankedBy::Exact, false, _) => format!(
-                "{of} an exact amplitude that stabilises {sliding} at the study's frequency {} has the least, {value}.",
+                "{of} an exact amplitude that stabilises steady sliding at the study's frequency {} has the least, {value}.",
                 named(best)
             ),
             (RankedBy::Averaging, ..) => {
                 let why = best.exact.as_ref().err().map_or("", String::as_str);
                 format!(
-                    "No waveform has an exact amplitude that stabilises {sliding} ({}: {why}). By averaging alone {} has the least \
+                    "No waveform has an exact amplitude that stabilises steady sliding ({}: {why}). By averaging alone {} has the least \
                      amplitude, {value}.",
                     best.label(),
                     named(best)
@@ -247,49 +247,6 @@ impl WaveformComparison {
             );
         }
         text
-    }
-
-    /// The rows as JSON, with what a kind of study adds to each; `empty` are fields in the units of the study.
-    pub(crate) fn put_rows(
-        &self,
-        fields: &mut Fields,
-        empty: impl Fn() -> Fields,
-        own: impl Fn(&ComparedWaveform, &mut Fields),
-    ) {
-        let rows = self.rows.iter().map(|row| {
-            let mut inner = empty();
-            inner
-                .plain("waveform", row.waveform.name())
-                .plain("label", row.label())
-                .plain("own", row.own);
-            own(row, &mut inner);
-            inner.number("duty_cycle", Quantity::Ratio, row.duty_cycle);
-            if let Waveform::Burst(burst) = &row.waveform {
-                inner.plain("on", burst.on()).plain("off", burst.off());
-            }
-            for column in &COLUMNS {
-                inner.known(column.name, column.quantity, row.averaged_value(column));
-            }
-            let until = row.averaged.as_ref().map_err(Clone::clone).and_then(|least| {
-                least.until.ok_or_else(|| "no larger amplitude makes it unstable again".to_owned())
-            });
-            inner.known("until", Quantity::Force, until);
-            for column in &COLUMNS {
-                let name = format!("exact_{}", column.name);
-                inner.known(&name, column.quantity, row.exact_value(column));
-            }
-            inner
-        });
-        fields.plain("carrier", self.carrier).plain("ranked_by", self.ranked_by().name());
-        fields.list("waveforms", rows.collect::<Vec<_>>());
-        let mut best = empty();
-        for column in &COLUMNS {
-            match self.best(column) {
-                Some(row) => best.plain(column.name, row.label()),
-                None => best.unknown(column.name, "no waveform that is ranked has a value"),
-            };
-        }
-        fields.nested("best", best);
     }
 }
 

@@ -1,41 +1,48 @@
 //! `waveforms`: the least dither of each waveform that quenches, and its cost.
 //!
-//! Each waveform takes the place of that of the study's first dither, at the same direction and frequency ratio. Its exact least
-//! amplitude at the study's frequency ratio is the local threshold of the base response; it is sought about the first critical amplitude of
-//! averaging at the study's frequency ratio from which sliding at the belt velocity is stable, or, where that would open the contact, at all
-//! amplitudes that keep it closed. The cost is that of the structure without friction ([`quell_linear::linear_cost`]), so that it depends on the
-//! dither alone.
+//! Each waveform takes the place of that of the study's first dither, at the same place and frequency. Its exact least amplitude is the
+//! threshold of the base response; it is sought about the first critical amplitude of averaging from which steady sliding is stable, or,
+//! where that would open a contact, at all amplitudes that keep the contacts closed.
+//!
+//! The cost is that of the sliding structure without the slope of friction ([`quell_linear::input_cost`]) at the driven point, exact
+//! for every waveform: the stroke of bᵀq, the largest velocity, and the mean power ⟨u bᵀq̇⟩ of a force b u(t).
+//!
+//! | file | contents |
+//! |---|---|
+//! | `comparison` | the waveforms in comparison, and their costs in a sentence |
+//! | `answer` | the comparison as JSON, warnings and a dataset |
 
+mod answer;
 mod comparison;
 
 use quell_dynamics::motion::orbit::family::SystemAt;
 use quell_dynamics::motion::orbit::motion_thresholds;
 use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::{BranchEnding, NoThresholds, local};
-use quell_dynamics::response::BAND_END;
+use quell_dynamics::orbit::threshold::BranchEnding;
+use quell_dynamics::response::{BAND_END, wave_reaches_the_band};
 use quell_dynamics::simulation::{is_used_up, within};
-use quell_linear::averaging::{
-    AveragedVerdict, AveragingOptions, Becomes, CriticalAmplitude, criterion, critical_amplitudes,
-};
-use quell_linear::linear_cost::linear_cost;
-use quell_model::units::Quantity;
+use quell_linear::averaging::{Becomes, DitheredSystem};
+use quell_linear::growth::Verdict;
+use quell_linear::input_cost::input_cost;
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::spectrum;
+use quell_model::profile::{Profile, Wave};
 use quell_model::waveform::Burst;
-use quell_model::{Belt, Dither, System, Waveform};
+use quell_model::{System, Waveform};
 use serde_json::Value as Json;
 
 pub(crate) use comparison::{COLUMNS, CostColumn};
 pub use comparison::{ComparedWaveform, LeastDither, RankedBy, WaveformComparison, WaveformCost};
 
+use super::system::modes::natural;
+use super::system::stability::FAR;
+use super::system::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::{
-    averages_are_a_start, passivity, refused_of_belt, rigid_average, small_motions,
-};
-use crate::dataset::{Array, Dataset};
+use crate::contact_state::averaged_without_states;
 use crate::effort::STEPS_OF_AN_ALTERNATIVE;
-use crate::fields::Fields;
 use crate::parallel::Parallel;
-use crate::study::BeltStudy;
-use crate::words::{digits, in_words};
+use crate::study::SystemStudy;
+use crate::words::digits;
 
 /// Bursts have duty cycles of whole eighths, in lowest terms: the shortest bursts of each duty cycle.
 const EIGHTHS: u32 = 8;
@@ -54,36 +61,125 @@ const CLOSED: f64 = 1e-3;
 /// Continuation steps of that search.
 const STEPS: u32 = 40;
 
-/// Compares waveforms for a study.
+/// Compares waveforms of the first dither of a study.
 ///
 /// # Errors
-/// A complaint about a study without dither or with a belt at rest.
-pub fn run(study: &BeltStudy) -> Result<WaveformComparison, Failure> {
-    refused_of_belt(study, "waveforms")?;
-    let belt = study.belt();
-    let Some(first) = belt.dithers().first() else {
-        let allowed = "given: waveforms are compared at the direction and the frequency of the study's dither";
+/// A complaint about a study without dither; [`Failure::Failed`] without steady sliding.
+pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
+    has_equations(study, "waveforms")?;
+    let system = study.system();
+    let first = system.inputs.first().and_then(|input| input.profile.waves().first());
+    let Some(first) = first else {
+        let allowed =
+            "given: waveforms are compared at the place and the frequency of the study's dither";
         return Err(
             Complaint::new(Fault::Missing, "dither", Origin::Whole, Json::Null, allowed).into()
         );
     };
-    super::moves(study, "sliding on it is to be stable")?;
+    let sliding = Linearised::new(system).map_err(|why| failed("waveforms", why))?;
     let Candidates { waveforms, carrier } = Candidates::beside(&first.waveform);
-    let rows = waveforms.in_parallel(|waveform| compared(belt, first, waveform.clone())).collect();
-    Ok(WaveformComparison { rows, carrier })
+    let motions =
+        spectrum(&sliding, &sliding.friction()).map_err(|why| failed("waveforms", why))?;
+    let highest = motions.motions.iter().map(natural).fold(0.0, f64::max);
+    let rows = waveforms.in_parallel(|waveform| {
+        let wave = Wave { waveform: waveform.clone(), amplitude: 1.0, ..first.clone() };
+        let acting = |amplitude: f64| with_wave(system, &Wave { amplitude, ..wave.clone() });
+        let unit = acting(1.0);
+        let prepared = DitheredSystem::new(&unit).map_err(NoAveragedDither::unknown);
+        let averaged = prepared.as_ref().map_err(Clone::clone).and_then(|known| least(known));
+        let without_state = prepared.as_ref().ok().zip(averaged.as_ref().ok());
+        let without_state = without_state.and_then(|(prepared, least)| {
+            let average = prepared.average_with(Some((0, least.amplitude))).ok()?;
+            averaged_without_states(&unit, &average.contacts).into_iter().next()
+        });
+        let cost = input_cost(&unit, &sliding, &unit.inputs[0].target, &wave);
+        let cost = cost.map_err(|why| why.to_string());
+        ComparedWaveform {
+            own: *waveform == first.waveform,
+            duty_cycle: duty_cycle(waveform),
+            slow: wave.repetition() < FAR * highest,
+            exact: prepared
+                .as_ref()
+                .map_err(ToString::to_string)
+                .and_then(|prepared| exact(prepared, &averaged, &acting)),
+            averaged: averaged.map_err(|why| why.to_string()),
+            unit: WaveformCost {
+                root_mean_square: waveform.root_mean_square(),
+                stroke: cost.clone().map(|cost| cost.stroke),
+                velocity: cost.clone().map(|cost| cost.velocity),
+                power: cost.map(|cost| cost.power),
+            },
+            without_state,
+            waveform: waveform.clone(),
+        }
+    });
+    Ok(WaveformComparison { rows: rows.collect(), carrier })
+}
+
+/// The system with this wave as its first dither.
+fn with_wave(system: &System, wave: &Wave) -> System {
+    let mut changed = system.clone();
+    let input = &mut changed.inputs[0];
+    input.profile = Profile::constant(input.profile.mean()).with(wave.clone());
+    changed
+}
+
+/// The exact least amplitude of a system.
+fn exact(
+    prepared: &DitheredSystem<'_>,
+    averaged: &Result<LeastDither, NoAveragedDither>,
+    acting: &(dyn Fn(f64) -> System + Sync),
+) -> Result<f64, String> {
+    if wave_reaches_the_band(&acting(1.0)) {
+        return Err(in_the_band());
+    }
+    let closed = |amplitude: f64| {
+        prepared.average_with(Some((0, amplitude))).is_ok_and(|average| {
+            average.contacts.iter().all(|contact| contact.normal_load > contact.load_amplitude)
+        })
+    };
+    let loads: f64 = acting(0.0).contacts.iter().map(|contact| contact.normal_load.abs()).sum();
+    // About an averaged amplitude a contact may open for a part of the period.
+    let is_allowed = |amplitude: f64| averaged.is_ok() || closed(amplitude);
+    let range = searched(averaged, loads, is_allowed)?;
+    let at = |values: &[f64]| -> Result<System, String> { Ok(acting(values[0])) };
+    exact_of_system(&at, range)
+}
+
+/// The least first dither of a system by averaging.
+fn least(prepared: &DitheredSystem<'_>) -> Result<LeastDither, NoAveragedDither> {
+    let without = prepared.average_with(Some((0, 0.0))).map_err(NoAveragedDither::unknown)?;
+    let growth = without.growth().map_err(NoAveragedDither::unknown)?;
+    if growth.verdict() == Verdict::Stable {
+        return Err(NoAveragedDither::Quiet);
+    }
+    let found = prepared.critical_amplitudes(0).map_err(NoAveragedDither::unknown)?;
+    let place = found.iter().position(|critical| critical.becomes == Becomes::Stable);
+    let place = place.ok_or(NoAveragedDither::Never)?;
+    if !found[place].contacts_stay_closed {
+        return Err(NoAveragedDither::Opens);
+    }
+    let amplitude = found[place].amplitude;
+    Ok(LeastDither {
+        amplitude,
+        until: found[place..]
+            .iter()
+            .find(|critical| critical.becomes == Becomes::Unstable)
+            .map(|critical| critical.amplitude),
+    })
 }
 
 /// The waveforms of a comparison.
-pub(crate) struct Candidates {
+struct Candidates {
     /// Sine, triangle, square, the study's own, bursts in ascending duty cycle.
-    pub(crate) waveforms: Vec<Waveform>,
+    waveforms: Vec<Waveform>,
     /// Name of the carrier of the bursts.
-    pub(crate) carrier: &'static str,
+    carrier: &'static str,
 }
 
 impl Candidates {
     /// The waveforms with which that of a study is compared.
-    pub(crate) fn beside(own: &Waveform) -> Self {
+    fn beside(own: &Waveform) -> Self {
         let carrier = match own {
             Waveform::Burst(burst) => burst.carrier().clone(),
             own if own.is_symmetric() => own.clone(),
@@ -112,7 +208,7 @@ pub(crate) fn label(waveform: &Waveform) -> String {
 }
 
 /// Share of the period in which a waveform acts: 1 except for bursts.
-pub(crate) fn duty_cycle(waveform: &Waveform) -> f64 {
+fn duty_cycle(waveform: &Waveform) -> f64 {
     match waveform {
         Waveform::Burst(burst) => f64::from(burst.on()) / f64::from(burst.cycles()),
         _ => 1.0,
@@ -123,46 +219,9 @@ fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
-fn compared(belt: &Belt, first: &Dither, waveform: Waveform) -> ComparedWaveform {
-    let dither = Dither { waveform: waveform.clone(), ..first.clone() };
-    let mut dithers = belt.dithers().to_vec();
-    dithers[0] = Dither { amplitude: 0.0, ..dither.clone() };
-    let with = belt.dithered_by(dithers).map_err(|why| why.to_string());
-    let averaged = match &with {
-        Ok(belt) => least(belt),
-        Err(why) => Err(NoAveragedDither::Unknown(why.clone())),
-    };
-    let exact = match &with {
-        Ok(belt) => exact(belt, &averaged),
-        Err(why) => Err(why.clone()),
-    };
-    let without_state = averaged.as_ref().ok().zip(with.as_ref().ok()).and_then(|(least, belt)| {
-        let acting = belt.with_amplitude(0, least.amplitude).ok()?;
-        let bristles = || acting.friction().bristles().map(|_| small_motions(""));
-        rigid_average(&acting, acting.belt_velocity()).or_else(bristles)
-    });
-    let cost = linear_cost(&Dither { amplitude: 1.0, ..dither.clone() }, belt.damping_ratio());
-    let cost = cost.map_err(|why| why.to_string());
-    ComparedWaveform {
-        without_state,
-        duty_cycle: duty_cycle(&waveform),
-        own: waveform == first.waveform,
-        slow: false,
-        averaged: averaged.map_err(|why| why.to_string()),
-        exact,
-        unit: WaveformCost {
-            root_mean_square: waveform.root_mean_square(),
-            stroke: cost.clone().map(|cost| cost.stroke),
-            velocity: cost.clone().map(|cost| cost.velocity),
-            power: cost.map(|cost| cost.power),
-        },
-        waveform,
-    }
-}
-
 /// Why averaging has no least dither.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum NoAveragedDither {
+enum NoAveragedDither {
     /// Nothing has to be quenched.
     Quiet,
     /// No amplitude quenches.
@@ -190,74 +249,22 @@ impl std::fmt::Display for NoAveragedDither {
 
 impl NoAveragedDither {
     /// That there is no answer, for a reason.
-    pub(crate) fn unknown(why: impl std::fmt::Display) -> Self {
+    fn unknown(why: impl std::fmt::Display) -> Self {
         Self::Unknown(why.to_string())
     }
 }
 
-/// The least dither by averaging on a belt whose first dither is the one that is sought.
-fn least(belt: &Belt) -> Result<LeastDither, NoAveragedDither> {
-    let options = AveragingOptions::FINITE_R;
-    let without = criterion(belt, options).map_err(NoAveragedDither::unknown)?;
-    if without.verdict == AveragedVerdict::Stable {
-        return Err(NoAveragedDither::Quiet);
-    }
-    let found = critical_amplitudes(belt, options).map_err(NoAveragedDither::unknown)?;
-    let becomes = |critical: &&CriticalAmplitude, wanted| critical.becomes == wanted;
-    let place = found.iter().position(|critical| becomes(&critical, Becomes::Stable));
-    let critical = place.map(|place| &found[place]).ok_or(NoAveragedDither::Never)?;
-    if !critical.contact_stays_closed {
-        return Err(NoAveragedDither::Opens);
-    }
-    let mut larger = found.iter().skip(place.unwrap_or(0));
-    Ok(LeastDither {
-        amplitude_ratio: critical.amplitude_ratio,
-        amplitude: critical.amplitude,
-        until: larger
-            .find(|critical| becomes(critical, Becomes::Unstable))
-            .map(|critical| critical.amplitude),
-    })
-}
-
 /// Why a waveform that repeats in the band of the vibration has no exact amplitude: the base response may be stable, but it is no quench.
-pub(crate) fn in_the_band() -> String {
+fn in_the_band() -> String {
     format!(
         "it repeats at or below {BAND_END} times the frequency of the vibration, so that the motion in step with it is a slow vibration \
          itself"
     )
 }
 
-/// The least amplitude from which the base response is stable.
-fn exact(belt: &Belt, averaged: &Result<LeastDither, NoAveragedDither>) -> Result<f64, String> {
-    if belt.dithers().first().is_some_and(|first| first.repetition_ratio() <= BAND_END) {
-        return Err(in_the_band());
-    }
-    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
-    let range = searched(averaged, belt.normal_load(), |amplitude| at(&[amplitude]).is_some())?;
-    if belt.has_contact_state() {
-        let system = |values: &[f64]| -> Result<System, String> {
-            let belt = belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
-            Ok(belt.system())
-        };
-        return exact_of_system(&system, range);
-    }
-    let (found, cut_short) =
-        within(STEPS_OF_AN_ALTERNATIVE, || (local(&at, range.from, range.to, STEPS), is_used_up()));
-    let found = found.map_err(|why| match why {
-        _ if cut_short => TOO_SENSITIVE.to_owned(),
-        NoThresholds::Invalid { .. } => "the contact would open".to_owned(),
-        NoThresholds::Start(why) => {
-            format!("no base response at the beginning of the search: {why}")
-        }
-        NoThresholds::Lost { .. } => "the continuation lost the base response".to_owned(),
-    })?;
-    let changes = found.thresholds.iter().map(|threshold| (threshold.value, threshold.becomes));
-    least_stable(changes, (found.ending, cut_short), range)
-}
-
 /// The amplitudes among which the exact one is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SearchedAmplitudes {
+struct SearchedAmplitudes {
     from: f64,
     to: f64,
     /// The averaged amplitude about which they are; `None` where they are all that keep the contacts closed.
@@ -269,7 +276,7 @@ pub(crate) struct SearchedAmplitudes {
 ///
 /// # Errors
 /// Why no amplitude is sought.
-pub(crate) fn searched(
+fn searched(
     averaged: &Result<LeastDither, NoAveragedDither>,
     load: f64,
     is_allowed: impl Fn(f64) -> bool,
@@ -303,7 +310,7 @@ pub(crate) fn searched(
 ///
 /// # Errors
 /// Why none is known.
-pub(crate) fn exact_of_system(at: &SystemAt<'_>, range: SearchedAmplitudes) -> Result<f64, String> {
+fn exact_of_system(at: &SystemAt<'_>, range: SearchedAmplitudes) -> Result<f64, String> {
     let (found, cut_short) = within(STEPS_OF_AN_ALTERNATIVE, || {
         (motion_thresholds(at, (range.from, range.to), STEPS, None), is_used_up())
     });
@@ -349,92 +356,4 @@ fn least_stable(
         _ if cut_short => TOO_SENSITIVE.to_owned(),
         _ => "the base response ends before it becomes stable".to_owned(),
     })
-}
-
-impl WaveformComparison {
-    /// The result of a belt in a few sentences.
-    pub fn of_belt_in_words(&self, study: &BeltStudy) -> String {
-        let velocity = in_words(study, Quantity::Velocity, study.belt().belt_velocity());
-        let force = |value: f64| in_words(study, Quantity::Force, value);
-        self.sentence(force, &format!("steady sliding at v₀ = {velocity}"))
-    }
-
-    /// Warnings: bursts that repeat near the natural frequency, and waveforms that quench over a limited range of amplitudes.
-    pub fn warnings_about_belt(&self, study: &BeltStudy) -> Vec<String> {
-        const FAST: f64 = 5.0;
-        let mut warnings = Vec::new();
-        let Some(first) = study.belt().dithers().first() else { return warnings };
-        let slow: Vec<&ComparedWaveform> = self
-            .rows
-            .iter()
-            .filter(|row| first.frequency_ratio / f64::from(row.waveform.cycles()) < FAST)
-            .collect();
-        if let Some(slowest) =
-            slow.iter().max_by_key(|row| row.waveform.cycles()).filter(|_| !slow.is_empty())
-        {
-            let ratio = digits(first.frequency_ratio / f64::from(slowest.waveform.cycles()));
-            warnings.push(format!(
-                "{} of the waveforms repeat at less than {FAST} times the natural frequency ({} at {ratio}): averaging assumes a \
-                 fast dither, and the exact amplitudes show the difference",
-                slow.len(),
-                slowest.label()
-            ));
-        }
-        warnings.extend(passivity(study.belt()));
-        let because = self.rows.iter().find_map(|row| row.without_state.as_deref());
-        warnings.extend(because.map(averages_are_a_start));
-        warnings
-    }
-
-    /// The comparison of a belt as JSON.
-    pub fn json_of_belt(&self, study: &BeltStudy) -> Json {
-        let mut fields = Fields::new(study.scales());
-        fields.plain("ok", true).plain("sentence", self.of_belt_in_words(study));
-        self.put_rows(
-            &mut fields,
-            || Fields::new(study.scales()),
-            |row, inner| {
-                let averaged = row.averaged.as_ref().map_err(Clone::clone);
-                let ratio = averaged.map(|least| least.amplitude_ratio);
-                inner.known("amplitude_ratio", Quantity::Velocity, ratio);
-            },
-        );
-        fields.plain("warnings", self.warnings_about_belt(study));
-        fields.finish()
-    }
-
-    /// The comparison of a belt as a dataset: one row for each waveform.
-    pub fn dataset_of_belt(&self, study: &BeltStudy) -> Dataset {
-        let dataset = Dataset::new(study, "waveforms").fact(self.of_belt_in_words(study));
-        self.arrays().into_iter().fold(self.named_rows(dataset), |dataset, array| {
-            let (name, quantity, values) = array;
-            dataset.array(&name, quantity, values)
-        })
-    }
-
-    /// Names of the waveforms along the axis of a dataset.
-    pub(crate) fn named_rows(&self, dataset: Dataset) -> Dataset {
-        let numbers = (0..self.rows.len()).map(|number| number as f64).collect();
-        let names: Vec<(u8, &'static str)> =
-            (0_u8..).zip(Waveform::NAMES.iter().copied()).collect();
-        let code = |row: &ComparedWaveform| {
-            names.iter().find(|(_, name)| *name == row.waveform.name()).map_or(0, |(code, _)| *code)
-        };
-        let codes: Vec<u8> = self.rows.iter().map(code).collect();
-        let dataset = dataset.with_axis(Array::new("number", "1", numbers));
-        dataset.with(Array::of_words("waveform", names, &codes))
-    }
-
-    /// The arrays of a dataset: duty cycle, the quantities by averaging, and the exact amplitude.
-    pub(crate) fn arrays(&self) -> Vec<(String, Quantity, Vec<f64>)> {
-        let each = |of: &dyn Fn(&ComparedWaveform) -> Result<f64, String>| -> Vec<f64> {
-            self.rows.iter().map(|row| of(row).unwrap_or(f64::NAN)).collect()
-        };
-        let duty = ("duty_cycle".to_owned(), Quantity::Ratio, each(&|row| Ok(row.duty_cycle)));
-        let averaged = COLUMNS.iter().map(|column| {
-            (column.name.to_owned(), column.quantity, each(&|row| row.averaged_value(column)))
-        });
-        let exact = ("exact_amplitude".to_owned(), Quantity::Force, each(&|row| row.exact.clone()));
-        [duty].into_iter().chain(averaged).chain([exact]).collect()
-    }
 }
