@@ -389,7 +389,7 @@ fn changes_and_units_are_applied() {
         "friction.law=decreasing",
     ]);
     assert_eq!(changed["dithers"][0]["amplitude"], 0.7);
-    assert_eq!(changed["friction"]["law"], "decreasing");
+    assert_eq!(changed["contacts"][0]["friction"]["law"], "decreasing");
     let seconds = place.good(&["simulate", "si.toml", "--until", "50ms", "--events"]);
     let end = seconds["final"]["time"].as_f64().expect("a number");
     assert!((end - 0.05).abs() < 1e-15);

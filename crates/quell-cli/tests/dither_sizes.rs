@@ -67,9 +67,7 @@ fn close(value: f64, exact: f64, what: &str) {
 
 /// The amplitude of the dither in newtons.
 fn newtons(checked: &Json) -> f64 {
-    let dither = &checked["dithers"][0];
-    let value = dither.get("amplitude_n").unwrap_or(&dither["amplitude"]);
-    value.as_f64().unwrap_or_else(|| panic!("{checked}"))
+    checked["dithers"][0]["amplitude"].as_f64().unwrap_or_else(|| panic!("{checked}"))
 }
 
 /// The amplitude that each key gives: the force of a volt is F_b/U_max, that of an ampere F_b/(ω C U_max).

@@ -250,6 +250,56 @@ fn a_lost_branch_does_not_discard_other_results() {
     }
 }
 
+/// Thresholds do not depend on the width of the range: the increments of the continuation follow how far the state moves.
+#[test]
+fn a_range_of_any_width_has_its_thresholds() {
+    for to in ["0.6", "100"] {
+        let found = thresholds("studies/stribeck-belt.toml", "dither.amplitude", ["0.4", to], &[]);
+        let local = found["local"].as_array().expect("thresholds");
+        assert_eq!((local.len(), &local[0]["kind"]), (1, &"grazing".into()), "{to}: {found}");
+        let value = local[0]["value"].as_f64().expect("a number");
+        assert!((value - 0.496_561_9).abs() < 1e-6, "{to}: {found}");
+    }
+}
+
+/// A surface that stops and turns: the response is the mirrored one, and that multipliers are 1 where it rests is no threshold.
+#[test]
+fn a_surface_may_turn() {
+    const SYSTEM: &str = "studies/belt-as-system.toml";
+    for (range, values) in [
+        (["-0.1", "0.1"], &[-0.040_270_12, 0.040_270_12][..]),
+        (["-0.03", "0.1"], &[0.040_270_12]),
+        (["-0.1", "-0.001"], &[-0.040_270_12]),
+        (["-0.03", "0.03"], &[]),
+    ] {
+        let found = thresholds(SYSTEM, "contact.belt.belt_velocity", range, &[]);
+        assert_eq!(found["covered"], true, "{range:?}: {found}");
+        let local = found["local"].as_array().expect("thresholds").iter();
+        let own: Vec<f64> = local.filter_map(|item| item["value"].as_f64()).collect();
+        assert_eq!(own.len(), values.len(), "{range:?}: {found}");
+        assert!(own.iter().zip(values).all(|(a, b)| (a - b).abs() < 1e-8), "{range:?}: {own:?}");
+    }
+}
+
+/// The common period of two dithers, the frequency of one of which varies, is another at every value.
+#[test]
+fn a_period_that_jumps_is_not_followed() {
+    let range = ["9", "12"];
+    let path = "dither[0].frequency_ratio";
+    let (found, _) = quell(&[
+        "thresholds",
+        "studies/two-dithers.toml",
+        "--parameter",
+        path,
+        "--from",
+        range[0],
+        "--to",
+        range[1],
+    ]);
+    let said = found.to_string();
+    assert!(said.contains("common period"), "{said}");
+}
+
 /// A wide range is covered to its end, and has the thresholds of its part.
 #[test]
 fn a_wide_range_has_the_thresholds_of_its_part() {

@@ -195,6 +195,26 @@ fn a_branch_followed_only_forwards_ends_where_the_whole_one_turns_back() {
     }
 }
 
+/// The increment of the difference with respect to the parameter follows how far the state moves: in a wide window it led over the border.
+#[test]
+fn a_wide_window_has_the_border_of_a_narrow_one() {
+    for continued in [true, false] {
+        for to in [1.0, 1e3, 1e6] {
+            let map = Corner { inside: 0.5, outside: -0.3, continued };
+            let window = Follow::window(-0.1, to, 40);
+            let branch = follow(&map, &[-0.1 / 1.3], -0.1, true, window).expect("a branch");
+            // The length of a branch is that of its states: one of 10⁶ is too long.
+            let is_window = branch.end == End::Window { at: to };
+            assert!(is_window || matches!(branch.end, End::TooLong { .. }), "{:?}", branch.end);
+            let [border] = branch.special_points.as_slice() else {
+                panic!("{continued} {to}: {:?}", branch.special_points)
+            };
+            assert!(border.parameter.abs() < 1e-9 * to, "{continued} {to}: {border:?}");
+            assert!(border.error < 1e-8 * to, "{continued} {to}: {border:?}");
+        }
+    }
+}
+
 /// The fixed point p below p = 0.5 and p + `jump` above it, with different signatures.
 struct Jump {
     jump: f64,

@@ -200,7 +200,7 @@ impl NativeStudy {
 
     fn check(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::here(py, move || Ok(check::run(&study)))
+        call::here(py, move || check::run(&study))
     }
 
     /// The mechanism as SVG; `path`: a file for it; `width`: a length with its unit.

@@ -58,7 +58,7 @@ def of_the_study(result: results.Result) -> set[str]:
     names |= {name.removeprefix("belt.") for name in names}
     found = set(attributes(names).values())
     study = result.study
-    contacts = study.check().facts.get("contacts", []) if isinstance(study, quell.System) else []
+    contacts = [it["name"] for it in study.check().facts.get("contacts", [])] if isinstance(study, quell.System) else []
     starts = [f"{attributes([name])[name]}_" for name in contacts] + ["shape_", "slip_of_", "velocity_"]
     depending = {name for name in result.arrays if isinstance(study, quell.System) and name.startswith(tuple(starts))}
     depending -= {name for name in depending if name.startswith("shape_at")}

@@ -36,7 +36,7 @@ def test_a_function_is_the_law_that_it_samples() -> None:
     # The range is 10 times the speed of belt and dither, 0.05 + 0.4/10.
     assert made.friction.slip_velocity[-1] == pytest.approx(0.9) and made.friction.slip_velocity[0] == 0.0
     assert 0 <= law.error < 1e-3
-    reported = made.check().facts["friction"]["fit"]["largest_error"]
+    reported = made.check().facts["contacts"][0]["friction"]["fit"]["largest_error"]
     assert reported == pytest.approx(law.error, abs=1e-3)
 
 

@@ -295,7 +295,7 @@ def test_friction_of_a_drive_is_given_in_newtons_and_ranges_are_told() -> None:
             viscous_n_s_per_m=0.2,
         ),
     )
-    assert drive.check().facts["friction"]["friction_force"] == pytest.approx(2.0)
+    assert drive.check().facts["contacts"][0]["friction"]["friction_force"] == pytest.approx(2.0)
     bands = drive.stability().facts["unstable_belt_velocities"]
     assert bands[0]["upper"] == pytest.approx(0.190616072953803, rel=1e-9)
     coulomb = quell.Belt(**{**BELT, "friction": quell.Coulomb(0.3, static_coefficient=0.4)})

@@ -92,7 +92,7 @@ def test_the_example_of_the_class_is_right() -> None:
 
 def test_check_modes_and_sources(hoffmann: quell.System, drive: quell.System) -> None:
     check = hoffmann.check()
-    assert (check.coordinates, check.contacts, check.unit_system) == (["x", "y"], ["pad"], "none")
+    assert (check.coordinates, [it["name"] for it in check.contacts], check.unit_system) == (["x", "y"], ["pad"], "none")
     modes = hoffmann.modes()
     assert modes.coordinates == ["x", "y"]
     # Stiffness [[2, 1], [1, 2]] with the spring of the contact.

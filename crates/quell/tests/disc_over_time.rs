@@ -209,7 +209,7 @@ fn verbs_about_a_steady_disc_refuse_one_that_varies() {
         let why = why.to_string();
         assert!(why.contains("disc.load.envelope") && why.contains("--at-time"), "{why}");
     }
-    let check = verbs.check().json();
+    let check = verbs.check().expect("valid").json();
     let load = &check["disc"]["loads"][0];
     assert_eq!(
         (load["least_share"].as_f64(), load["largest_share"].as_f64()),

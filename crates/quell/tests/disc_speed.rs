@@ -225,7 +225,7 @@ fn a_moment_is_a_steady_study() {
         let why = why.to_string();
         assert!(why.contains("disc.drive") && why.contains("--at-time"), "{why}");
     }
-    let check = verbs(&whole).check().json();
+    let check = verbs(&whole).check().expect("valid").json();
     assert_eq!(check["disc"]["least_speed"].as_f64(), Some(0.2));
     assert_eq!(check["disc"]["largest_speed"].as_f64(), Some(0.6));
     assert!(check["disc"]["speed"].is_null() && check["why"]["disc.speed"].is_string());

@@ -5,7 +5,7 @@
 use quell::kind::verbs;
 use quell::run::orbit::Wanted;
 use quell::run::{
-    basins, bifurcation, check, friction, map, response, simulate, stability, thresholds, varied,
+    basins, bifurcation, friction, map, response, simulate, stability, thresholds, varied,
 };
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
@@ -253,7 +253,7 @@ fn a_cubic_far_out_warns_in_the_study_s_units() {
     for json in [
         stability::run(&far).json(&far),
         friction::run(&far, &[far.belt().belt_velocity()]).json(&far),
-        check::Check { study: &far }.json(),
+        verbs(&quell::Study::from(&far)).check().expect("valid").json(),
         simulate::run(&far, 20.0, simulate::Options::default()).expect("a run").json(&far),
         response::run(&set(si, &["solver.settle_s=0.1", "solver.record_periods=4"]))
             .expect("a response")

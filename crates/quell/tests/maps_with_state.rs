@@ -296,10 +296,10 @@ fn check_reports_passivity_and_the_mean_of_samples() {
         LAWS[1].1.replace("bristle_damping = 0.1", "bristle_damping = 20.0\nviscous = 0.01");
     for text in [belt(("", &active), 1.0), system(("", &active), 1.0)] {
         let text = text.replace("waveform = \"sine\"\n", samples);
-        let found = verbs(&study(&text)).check().json();
+        let found = verbs(&study(&text)).check().expect("valid").json();
         assert!(warnings(&found).contains("not passive"), "{found}");
         assert!(warnings(&found).contains("have the mean 2, which is taken out"), "{found}");
     }
-    let plain = verbs(&study(&belt(LAWS[0], 1.0))).check().json();
+    let plain = verbs(&study(&belt(LAWS[0], 1.0))).check().expect("valid").json();
     assert_eq!(warnings(&plain), "[]");
 }

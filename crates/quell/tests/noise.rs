@@ -229,7 +229,7 @@ fn the_share_of_seeds_that_quench() {
 #[test]
 fn answers_name_the_band() {
     let noisy = Study::from(&study(&with_noise(3.0, BAND)));
-    let check = verbs(&noisy).check();
+    let check = verbs(&noisy).check().expect("valid");
     let json = check.json();
     let of = &json["dithers"][0]["noise"];
     assert_eq!((of["lines"].as_u64(), of["seed"].as_u64()), (Some(64), Some(1)));
@@ -241,7 +241,13 @@ fn answers_name_the_band() {
         assert!(keys.iter().any(|known| known == key), "{key}");
     }
     let system = Study::from(&SystemStudy::parse(&system(BAND), &[]).expect("valid"));
-    assert!(verbs(&system).check().text().contains("angular frequency 8 to 12 (64 lines, seed 1)"));
+    assert!(
+        verbs(&system)
+            .check()
+            .expect("valid")
+            .text()
+            .contains("angular frequency 8 to 12 (64 lines, seed 1)")
+    );
 }
 
 /// With an envelope a run of noise is one over time; averages of a moment have its amplitude.

@@ -172,7 +172,8 @@ fn map(text: &str, quantities: &[&str]) -> Json {
 #[test]
 fn verdicts_by_averaging_are_those_of_the_sentence() {
     for (text, amplitude) in [(NEAR, "dither.amplitude"), (BRAKE, "dither.amplitude_n")] {
-        let own = number(&verbs(&study(text)).check().facts()["dithers"][0]["amplitude"]);
+        let own =
+            number(&verbs(&study(text)).check().expect("valid").facts()["dithers"][0]["amplitude"]);
         let stability = verbs(&study(text)).stability().expect("averages").facts();
         assert_eq!(stability["verdict"], "stable", "{stability}");
         assert_eq!(stability["limit"]["verdict"], "unstable", "{stability}");

@@ -164,9 +164,11 @@ fn the_studies_of_own_laws_are_valid() {
         1,
         "what decides a map is in its settings"
     );
-    let object = quell::run::check::Check { study: &measured }.json();
+    let object = quell::kind::verbs(&quell::Study::from(&measured)).check().expect("valid").json();
     assert!(
-        object["friction"]["fit"]["rms_error"].as_f64().is_some_and(|error| error > 0.0),
+        object["contacts"][0]["friction"]["fit"]["rms_error"]
+            .as_f64()
+            .is_some_and(|error| error > 0.0),
         "{object}"
     );
 }

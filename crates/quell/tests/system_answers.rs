@@ -174,7 +174,7 @@ fn a_surface_that_comes_to_rest_is_a_point() {
 
 #[test]
 fn unlikely_input_is_warned_of() {
-    let check = |text: &str| warnings(&verbs(&study(text)).check().json());
+    let check = |text: &str| warnings(&verbs(&study(text)).check().expect("valid").json());
     let text = pad("[1, 1]", LIGHT, 0.1, 20.0);
     assert_eq!(check(&text), "[]");
     let used =

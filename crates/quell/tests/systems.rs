@@ -378,7 +378,7 @@ fn the_scale_of_modes_is_checked() {
         );
         let study = Study::parse_in(&text, &[], folder.path()).expect("a study");
         let stability = verbs(&study).stability().expect("a verdict").json();
-        let check = verbs(&study).check().facts();
+        let check = verbs(&study).check().expect("valid").facts();
         assert_eq!(stability["warnings"].to_string(), check["warnings"].to_string());
         check["warnings"].to_string()
     };
@@ -399,7 +399,7 @@ fn magnitudes_are_checked() {
              direction = \"tangential\"\nwaveform = \"sine\"\namplitude_n = \"{amplitude}\"\nfrequency_hz = 20000\n\
              [actuator]\nkind = \"piezo\"\nblocked_force_n = \"2 kN\"\n"
         );
-        verbs(&study(&text)).check().facts()["warnings"].to_string()
+        verbs(&study(&text)).check().expect("valid").facts()["warnings"].to_string()
     };
     assert_eq!(belt("0.4", "0.1", "4 kN", "0.8 kN"), "[]");
     let system = |mu: &str, speed: &str, load: &str, amplitude: &str| {
@@ -409,7 +409,7 @@ fn magnitudes_are_checked() {
              [contact.friction]\nlaw = \"coulomb\"\ncoefficient = {mu}\n[[dither]]\nat = {{ x = 1 }}\nwaveform = \"sine\"\n\
              amplitude = \"{amplitude}\"\nfrequency = \"20 kHz\"\n[actuator]\nkind = \"piezo\"\nblocked_force = \"2 kN\"\n"
         );
-        verbs(&study(&text)).check().facts()["warnings"].to_string()
+        verbs(&study(&text)).check().expect("valid").facts()["warnings"].to_string()
     };
     assert_eq!(system("0.4", "0.1", "4 kN", "0.8 kN"), "[]");
     for (mu, speed, load, amplitude, words) in [

@@ -17,6 +17,6 @@ pub(crate) struct Arguments {
 /// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = arguments.study.read()?;
-    let done = verbs(&study).check();
+    let done = verbs(&study).check()?;
     answer(arguments.study.json, done.as_ref(), Outputs::none(), Plot::none())
 }

@@ -1,11 +1,11 @@
 //! `check`: the values of a study.
 
-use quell::Study;
 use quell::kind::verbs;
+use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
 
 /// Runs the verb.
-pub(crate) fn run(study: &Study) -> NativeAnswer {
-    NativeAnswer::new(verbs(study).check())
+pub(crate) fn run(study: &Study) -> Result<NativeAnswer, Failure> {
+    Ok(NativeAnswer::new(verbs(study).check()?))
 }

@@ -1,9 +1,10 @@
 //! The verbs of a belt.
 
+use quell_model::units::Quantity;
+
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
 use crate::complaint::Failure;
-use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::recorded_motion::ObservedMotion;
@@ -12,7 +13,7 @@ use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
     actuator, atlas, basins, belt_system, bifurcation, describing, design, friction,
-    noise_response, orbit, probability, response, simulate, stability, window,
+    noise_response, orbit, probability, response, simulate, stability,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -48,8 +49,8 @@ impl Verbs for BeltStudy {
         ]
     }
 
-    fn check(&self) -> Box<dyn Outcome> {
-        Box::new(Answered::new(self, Valid))
+    fn check(&self) -> Reply {
+        belt_system::checked(self)?.check()
     }
 
     fn sources(&self) -> Sources {
@@ -87,11 +88,12 @@ impl Verbs for BeltStudy {
     }
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
-        answer(self, window::of_belt(self, window))
+        let one = self.scales().map_or(1.0, |scales| scales.to_units(Quantity::Time, 1.0));
+        belt_system::described(self)?.response_within((one * window.0, one * window.1))
     }
 
-    fn recorded_motion(&self, _: &str) -> Result<ObservedMotion, Failure> {
-        ObservedMotion::of_belt(self)
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
+        belt_system::described(self)?.recorded_motion(verb)
     }
 
     fn ramp(&self) -> Reply {

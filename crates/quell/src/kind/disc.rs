@@ -36,8 +36,8 @@ impl Verbs for DiscStudy {
         ]
     }
 
-    fn check(&self) -> Box<dyn Outcome> {
-        Box::new(Answered::new(self, Valid))
+    fn check(&self) -> Reply {
+        answer(self, Ok(Valid))
     }
 
     fn sources(&self) -> Sources {
@@ -72,7 +72,7 @@ impl Verbs for DiscStudy {
     }
 
     fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
-        ObservedMotion::of_system(&motion::at_rest(self), verb)
+        ObservedMotion::of(&motion::at_rest(self), verb)
     }
 
     fn modes(&self) -> Reply {

@@ -46,7 +46,10 @@ pub trait Verbs: Send + Sync {
     }
 
     /// The values of the study.
-    fn check(&self) -> Box<dyn Outcome>;
+    ///
+    /// # Errors
+    /// A law whose numbers are out of their bounds in the units of the study.
+    fn check(&self) -> Reply;
 
     /// The equations and papers that the study's computations use.
     fn sources(&self) -> Sources;
@@ -145,7 +148,7 @@ pub trait Verbs: Send + Sync {
     /// What a run does between two of its times.
     ///
     /// # Errors
-    /// A kind without this verb; as [`crate::run::window::of_belt`].
+    /// A kind without this verb; as [`crate::run::window::run`].
     fn response_within(&self, window: (f64, f64)) -> Reply {
         let _ = window;
         Err(self.lacks("response --window"))
@@ -366,7 +369,7 @@ impl Verbs for OverTime {
         self.steady.draws(verb)
     }
 
-    fn check(&self) -> Box<dyn Outcome> {
+    fn check(&self) -> Reply {
         self.steady.check()
     }
 

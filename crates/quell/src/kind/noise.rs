@@ -52,7 +52,7 @@ impl Verbs for UnderNoise {
         self.periodic.draws(verb)
     }
 
-    fn check(&self) -> Box<dyn Outcome> {
+    fn check(&self) -> Reply {
         self.periodic.check()
     }
 

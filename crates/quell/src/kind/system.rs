@@ -69,8 +69,8 @@ impl Verbs for SystemStudy {
         }
     }
 
-    fn check(&self) -> Box<dyn Outcome> {
-        Box::new(Answered::new(self, Valid))
+    fn check(&self) -> Reply {
+        answer(self, Ok(Valid))
     }
 
     fn sources(&self) -> Sources {
@@ -155,11 +155,11 @@ impl Verbs for SystemStudy {
     }
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
-        answer(self, window::of_system(self, window))
+        answer(self, window::run(self, window))
     }
 
     fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
-        ObservedMotion::of_system(self, verb)
+        ObservedMotion::of(self, verb)
     }
 
     fn response_after(&self, request: ResponseRequest) -> Reply {

@@ -1,39 +1,21 @@
 //! `check`: the values of a valid study.
 
-use quell_model::Profile;
-use quell_model::profile::Wave;
+use quell_model::profile::{Profile, Wave};
+use quell_model::system::{InputTarget, System};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
 use super::table::{TextTable, figure};
 use crate::noise::lines_in_words;
-use crate::run::check::Check;
-use crate::run::disc;
-use crate::run::law;
-use crate::run::system;
+use crate::run::{check, disc, law};
 use crate::study::{
-    BeltSetup, BeltStudy, DiscSetup, DiscStudy, GivenSize, StudyOf, SystemSetup, SystemStudy,
-    UnitSystem,
+    DiscSetup, DiscStudy, GivenSize, StudyOf, SystemSetup, SystemStudy, UnitSystem,
 };
 
 /// Marks a valid study; the answer of `check` follows from the study alone.
 #[derive(Clone, Copy, Debug)]
 pub struct Valid;
-
-impl Presented<BeltSetup> for Valid {
-    fn json(&self, study: &BeltStudy) -> Json {
-        Check { study }.json()
-    }
-
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(sentence(study))
-    }
-
-    fn table(&self, study: &BeltStudy) -> String {
-        table_of_belt(study)
-    }
-}
 
 impl Presented<DiscSetup> for Valid {
     fn json(&self, study: &DiscStudy) -> Json {
@@ -51,7 +33,7 @@ impl Presented<DiscSetup> for Valid {
 
 impl Presented<SystemSetup> for Valid {
     fn json(&self, study: &SystemStudy) -> Json {
-        system::check::json(study)
+        check::json(study)
     }
 
     fn sentence(&self, study: &SystemStudy) -> Option<String> {
@@ -66,59 +48,6 @@ impl Presented<SystemSetup> for Valid {
 fn sentence<K>(study: &StudyOf<K>) -> String {
     let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
     format!("{title}the study is valid.")
-}
-
-fn table_of_belt(study: &BeltStudy) -> String {
-    let belt = study.belt();
-    let mut table = TextTable::new(study.scales());
-    table.number("damping ratio ζ", Quantity::DampingRatio, belt.damping_ratio());
-    let mut over_time = |label: &str, quantity, value, profile: Option<&Profile>| {
-        let Some(profile) = profile else { return table.number(label, quantity, value) };
-        let (least, largest) = profile.bounds();
-        table.number(&format!("{label}, over time: least"), quantity, least);
-        table.number("  largest", quantity, largest);
-    };
-    over_time("normal load F", Quantity::Force, belt.normal_load(), belt.load());
-    over_time("belt velocity v₀", Quantity::Velocity, belt.belt_velocity(), belt.drive());
-    let law = belt.friction().kind();
-    table.word("friction law", law.name());
-    for (parameter, value) in law.parameters().iter().zip(belt.friction().values()) {
-        let label = format!("{} {}", parameter.key().replace('_', " "), parameter.symbol);
-        table.number(&label, parameter.quantity, value);
-    }
-    for (label, words) in law::words(study) {
-        table.word(&label, &words);
-    }
-    if let Some(stiffness) = belt.tangential_stiffness() {
-        table.number("tangential stiffness k_t", Quantity::Stiffness, stiffness);
-        table.number("  breakaway", Quantity::Displacement, belt.breakaway(stiffness));
-    }
-    for (place, dither) in belt.dithers().iter().enumerate() {
-        table.word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
-        table.number("  amplitude D", Quantity::Force, dither.amplitude);
-        for given in study.given_sizes().iter().filter(|given| given.dither == place) {
-            table.word("    given as", &size_in_words(given, ""));
-        }
-        if let Some(noise) = dither.waveform.noise() {
-            let [low, high] = noise.band(dither.frequency_ratio);
-            table.number("  band of R: from", Quantity::FrequencyRatio, low);
-            table.number("    to", Quantity::FrequencyRatio, high);
-            table.word("  lines", &lines_in_words(noise));
-        } else {
-            table.number("  frequency ratio R", Quantity::FrequencyRatio, dither.frequency_ratio);
-            table.number("  phase φ", Quantity::Angle, dither.phase);
-        }
-        table.number("  amplitude ratio α = D/R", Quantity::Velocity, dither.amplitude_ratio());
-        if let Some(envelope) = &dither.envelope {
-            let (least, largest) = envelope.range();
-            table.word(
-                "  share of it",
-                &format!("over time, from {} to {}", figure(least), figure(largest)),
-            );
-        }
-    }
-    axes(&mut table, study);
-    table.text()
 }
 
 /// A size with its key, and what makes it a force.
@@ -156,6 +85,9 @@ fn table_of_system(study: &SystemStudy) -> String {
         }
         format!("over time from {} to {}", with(quantity, least), with(quantity, largest))
     };
+    if let Some([ratio]) = check::damping_ratios(study).as_deref() {
+        table.word("damping ratio ζ", &figure(*ratio));
+    }
     for contact in &system.contacts {
         let words = format!(
             "{}, normal load {}, belt velocity {}, {}",
@@ -165,11 +97,29 @@ fn table_of_system(study: &SystemStudy) -> String {
             contact.friction.kind().name()
         );
         table.word("contact", &words);
+        let law = &contact.friction;
+        for (parameter, value) in law.kind().parameters().iter().zip(law.values()) {
+            let label = format!("  {} {}", parameter.key().replace('_', " "), parameter.symbol);
+            table.word(&label, &with(parameter.quantity, value));
+        }
+        for (label, words) in law::words(law, &|speed| with(Quantity::Velocity, speed)) {
+            table.word(&format!("  {}", label.trim_start()), &words);
+        }
+        if let Some(stiffness) = contact.tangential_stiffness {
+            table.word("  tangential stiffness k_t", &with(Quantity::Stiffness, stiffness));
+            let breakaway = check::breakaway(contact, stiffness);
+            table.word("    breakaway", &with(Quantity::Displacement, breakaway));
+        }
     }
-    for wave in system.waves() {
+    let waves = system
+        .inputs
+        .iter()
+        .flat_map(|input| input.profile.waves().iter().map(|wave| (&input.target, wave)));
+    for (target, wave) in waves {
         let words = format!(
-            "{}, amplitude {}{}, {}",
+            "{} {}, amplitude {}{}, {}",
             wave.waveform.name(),
+            place_in_words(system, target),
             with(Quantity::Force, wave.amplitude),
             if wave.envelope.is_some() { " times its envelope" } else { "" },
             frequency_of(study.units(), wave)
@@ -184,6 +134,20 @@ fn table_of_system(study: &SystemStudy) -> String {
     }
     axes(&mut table, study);
     table.text()
+}
+
+/// Where a dither acts.
+fn place_in_words(system: &System, target: &InputTarget) -> String {
+    let name = |contact: usize| system.contacts.get(contact).map_or("", |known| &known.name);
+    match target {
+        InputTarget::Force(row) => {
+            let names = system.structure.names().iter().zip(row);
+            let driven = names.filter(|(_, share)| **share != 0.0).map(|(name, _)| name.as_str());
+            format!("on {}", driven.collect::<Vec<_>>().join(", "))
+        }
+        InputTarget::NormalLoad { contact, .. } => format!("of the load of {}", name(*contact)),
+        InputTarget::Friction { contact } => format!("of the friction of {}", name(*contact)),
+    }
 }
 
 /// The frequency of a wave, of noise its band.

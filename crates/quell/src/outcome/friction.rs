@@ -17,6 +17,7 @@ use crate::quantity;
 use crate::run::friction::{FrictionCurve, FrictionPoint};
 use crate::run::law;
 use crate::study::{BeltSetup, BeltStudy};
+use crate::words::in_words;
 
 impl Presented<BeltSetup> for FrictionCurve {
     fn json(&self, study: &BeltStudy) -> Json {
@@ -58,7 +59,9 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
         None => (quantity::unit_of(Quantity::Velocity, None), 1.0),
     };
     let mut text = String::new();
-    for (label, words) in law::words(study) {
+    for (label, words) in
+        law::words(study.belt().friction(), &|speed| in_words(study, Quantity::Velocity, speed))
+    {
         let _ = writeln!(text, "{}: {words}", label.trim());
     }
     let (words, names) = match curve.measured {

@@ -35,7 +35,7 @@ pub mod system_modes;
 pub mod system_motion;
 mod thresholds;
 mod waveforms;
-pub(crate) mod window;
+mod window;
 
 pub use actuator::{actuator, actuator_of_system};
 pub use atlas::{atlas, atlas_tables};
@@ -53,6 +53,7 @@ pub use stability::stability;
 pub use sweep::sweep;
 pub use thresholds::{curves, thresholds};
 pub use waveforms::waveforms;
+pub(crate) use window::window;
 
 use crate::complaint::Failure;
 use crate::output::Output;

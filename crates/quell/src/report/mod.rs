@@ -108,7 +108,7 @@ pub fn run_with_progress(
     Ok(StudyReport {
         question: question(study),
         sketch: sketch::run(study, Some(SKETCH_WIDTH_MM))?.sketch,
-        check: verbs.check(),
+        check: verbs.check()?,
         study: study.clone(),
         answers,
         unexamined,

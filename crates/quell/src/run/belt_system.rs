@@ -1,10 +1,13 @@
-//! A belt as its system, which answers `orbit`, `attractor`, `thresholds`, `bifurcation` and `basins`. Its numbers keep their paths.
+//! A belt as its system, which answers what is said of belts and systems alike. Its numbers keep their paths.
 
 use quell_dynamics::start::InitialState;
 use quell_model::units::Quantity;
 
 use crate::complaint::Failure;
-use crate::study::{BeltStudy, DescribedSystem, Study, SystemStart, SystemStudy, not_periodic};
+use crate::run::actuator::beyond_actuator;
+use crate::study::{
+    BeltStudy, DescribedSystem, GivenSize, Study, SystemStart, SystemStudy, not_periodic, plausible,
+};
 
 /// The system of a belt, for a verb about motions that repeat.
 ///
@@ -22,6 +25,10 @@ pub(crate) fn of(study: &BeltStudy, verb: &str) -> Result<SystemStudy, Failure> 
 /// # Errors
 /// A law whose numbers are out of their bounds in these units.
 pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
+    warned(study, Vec::new())
+}
+
+fn warned(study: &BeltStudy, warnings: Vec<String>) -> Result<SystemStudy, Failure> {
     let initial = match study.initial() {
         InitialState::Rest => SystemStart::Rest,
         InitialState::Sliding => SystemStart::Sliding,
@@ -36,7 +43,8 @@ pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
         units: study.units(),
         observe: vec![1.0],
         initial,
-        warnings: Vec::new(),
+        warnings,
+        sizes: sizes(study),
         time: None,
     }))
 }
@@ -44,4 +52,23 @@ pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
 /// A velocity of the equations in the units of the system; displacements are lengths in both.
 fn in_units(study: &BeltStudy, velocity: f64) -> f64 {
     study.scales().map_or(velocity, |scales| scales.to_units(Quantity::Velocity, velocity))
+}
+
+/// The amplitudes that are given by another size, in these units.
+fn sizes(study: &BeltStudy) -> Vec<GivenSize> {
+    let one = study.scales().map_or(1.0, |scales| scales.to_units(Quantity::Force, 1.0));
+    let given = study.given_sizes().iter().cloned();
+    given.map(|given| GivenSize { amplitude: one * given.amplitude, ..given }).collect()
+}
+
+/// The system of a belt as `check` shows it, with what is unlikely about the numbers of the belt.
+///
+/// # Errors
+/// As [`described`].
+pub(crate) fn checked(study: &BeltStudy) -> Result<SystemStudy, Failure> {
+    let belt = study.belt();
+    let in_units = belt.system_in_units().and_then(Result::ok);
+    let magnitudes = in_units.map(|system| plausible::warnings(&system, study.units(), false));
+    let demanded = beyond_actuator(&belt.system(), study.actuator(), 0);
+    warned(study, magnitudes.into_iter().flatten().chain(demanded).collect())
 }

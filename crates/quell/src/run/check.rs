@@ -1,128 +1,184 @@
-//! `check`: the numbers of a valid study.
-use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
+//! `check`: the numbers of a valid study of a belt or a system.
+
+use quell_linear::averaging::DitheredSystem;
+use quell_model::profile::{Profile, Wave};
+use quell_model::system::{Contact, Input, InputTarget, Structure};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::actuator::beyond_actuator;
 use super::law;
-use crate::contact_state::passivity;
+use super::system::actuator::designed;
+use super::system::velocity_in_words;
 use crate::fields::Fields;
 use crate::noise;
-use crate::range;
+use crate::range::outside_of_laws;
 use crate::removed_mean;
-use crate::run::actuator::beyond_actuator;
-use crate::study::{BeltStudy, GivenSize, plausible};
+use crate::study::{GivenSize, SystemStart, SystemStudy};
 
-/// The answer for a valid study.
-#[derive(Clone, Debug)]
-pub struct Check<'a> {
-    /// The study.
-    pub study: &'a BeltStudy,
+/// The study as JSON.
+pub fn json(study: &SystemStudy) -> Json {
+    let system = study.system();
+    let mut fields = Fields::of_system(study.units());
+    fields.plain("ok", true);
+    match study.title() {
+        Some(title) => fields.plain("title", title),
+        None => fields.unknown("title", "the study has no title"),
+    };
+    let form = match &system.structure {
+        Structure::Mechanical(_) => "coordinates",
+        Structure::StateSpace(_) => "states",
+    };
+    fields
+        .plain("unit_system", study.units().name())
+        .plain("form", form)
+        .plain("coordinates", system.structure.names().to_vec());
+    if let Some(ratios) = damping_ratios(study) {
+        fields.numbers("damping_ratios", Quantity::Ratio, &ratios);
+    }
+    fields.list("contacts", system.contacts.iter().map(|contact| contact_fields(study, contact)));
+    let dithers = system.inputs.iter().flat_map(|input| {
+        let waves = input.profile.waves().iter();
+        waves.map(move |wave| dither_fields(study, input, wave))
+    });
+    fields.list("dithers", dithers.collect::<Vec<_>>());
+    let sizes = study.given_sizes().iter().map(|given| size_fields(study, given));
+    fields.list("given_amplitudes", sizes.collect::<Vec<_>>());
+    fields.plain("observe", study.observe()).plain("initial", initial(study.initial()));
+    let axes = study.sweeps().iter().map(|sweep| {
+        let mut inner = Fields::of_system(study.units());
+        inner
+            .plain("parameter", sweep.path.as_str())
+            .plain("unit", sweep.target.unit)
+            .plain("points", sweep.axis.len())
+            .plain("from", sweep.axis.value(0))
+            .plain("to", sweep.axis.value(usize::MAX));
+        inner
+    });
+    fields.list("sweeps", axes.collect::<Vec<_>>()).plain("warnings", warnings(study));
+    fields.finish()
 }
 
-impl Check<'_> {
-    /// As JSON.
-    pub fn json(&self) -> Json {
-        let study = self.study;
-        let scales = study.scales();
-        let belt = study.belt();
-        let mut fields = Fields::new(scales);
-        fields.plain("ok", true);
-        match study.title() {
-            Some(title) => fields.plain("title", title),
-            None => fields.unknown("title", "the study has no title"),
-        };
-        fields.plain("unit_system", study.units().name());
-        let mut inner = Fields::new(scales);
-        for (parameter, value, over_time) in [
-            (DAMPING_RATIO, belt.damping_ratio(), None),
-            (NORMAL_LOAD, belt.normal_load(), belt.load()),
-            (BELT_VELOCITY, belt.belt_velocity(), belt.drive()),
-        ] {
-            let Some(profile) = over_time else {
-                inner.number(parameter.key(), parameter.quantity, value);
-                continue;
-            };
-            let (least, largest) = profile.bounds();
-            inner
-                .known(parameter.key(), parameter.quantity, Err("varies in time".to_owned()))
-                .number(&format!("least_{}", parameter.key()), parameter.quantity, least)
-                .number(&format!("largest_{}", parameter.key()), parameter.quantity, largest);
-        }
-        let none = "a rigid contact: belt.tangential_stiffness is not given";
-        let stiffness = belt.tangential_stiffness();
-        inner
-            .known("tangential_stiffness", Quantity::Stiffness, stiffness.ok_or(none.to_owned()))
-            .known(
-                "breakaway",
-                Quantity::Displacement,
-                stiffness.map(|own| belt.breakaway(own)).ok_or(none.to_owned()),
-            );
-        fields.nested("belt", inner);
-        let inner = law::fields(study);
-        fields.nested("friction", inner);
-        let dithers = belt.dithers().iter().map(|dither| {
-            let mut inner = Fields::new(scales);
-            inner
-                .plain("direction", dither.direction.name())
-                .plain("waveform", dither.waveform.name())
-                .number("amplitude", Quantity::Force, dither.amplitude)
-                .number("frequency_ratio", Quantity::FrequencyRatio, dither.frequency_ratio)
-                .known(
-                    "phase",
-                    Quantity::Angle,
-                    match dither.waveform.noise() {
-                        Some(_) => Err("the lines of noise have random phases".to_owned()),
-                        None => Ok(dither.phase),
-                    },
-                )
-                .number("amplitude_ratio", Quantity::Velocity, dither.amplitude_ratio())
-                .plain("has_envelope", dither.envelope.is_some());
-            if scales.is_some() {
-                inner.number("frequency", Quantity::FrequencyRatio, dither.frequency_ratio);
-            }
-            if let Some(noise) = dither.waveform.noise() {
-                inner.plain("noise", noise::json(noise, dither.frequency_ratio));
-            }
-            inner
-        });
-        fields.list("dithers", dithers.collect::<Vec<_>>());
-        let sizes = study.given_sizes().iter().map(|given| given_size(given, Fields::new(scales)));
-        fields.list("given_amplitudes", sizes.collect::<Vec<_>>());
-        let axes = study.sweeps().iter().map(|sweep| {
-            let mut inner = Fields::new(None);
-            inner
-                .plain("parameter", sweep.path.as_str())
-                .plain("unit", sweep.target.unit)
-                .plain("points", sweep.axis.len())
-                .plain("from", sweep.axis.value(0))
-                .plain("to", sweep.axis.value(usize::MAX));
-            inner
-        });
-        fields.list("sweeps", axes.collect::<Vec<_>>());
-        let warnings = range::averaged(study).into_iter().chain(passivity(study));
-        let in_units = belt.system_in_units().and_then(Result::ok);
-        let magnitudes = in_units.map(|system| plausible::warnings(&system, study.units(), false));
-        let warnings = warnings.chain(magnitudes.into_iter().flatten());
-        let warnings = warnings.chain(beyond_actuator(&belt.system(), study.actuator(), 0));
-        let waveforms = belt.dithers().iter().map(|dither| &dither.waveform);
-        let warnings = warnings.chain(noise::few_lines(study.belt()));
-        let warnings = warnings.chain(removed_mean::warnings(waveforms));
-        fields.plain("warnings", warnings.collect::<Vec<String>>());
-        fields.finish()
+/// c/(2√(km)) of each coordinate alone; `None` of equations of first order, and where a coordinate has no spring of its own.
+pub(crate) fn damping_ratios(study: &SystemStudy) -> Option<Vec<f64>> {
+    let mechanical = study.system().structure.mechanical()?;
+    let mass = mechanical.mass().matrix();
+    let ratio = |i: usize| {
+        let (stiffness, damping) = (mechanical.stiffness()[(i, i)], mechanical.damping()[(i, i)]);
+        (stiffness > 0.0).then(|| 0.5 * damping / (stiffness * mass[(i, i)]).sqrt())
+    };
+    (0..mechanical.size()).map(ratio).collect()
+}
+
+/// A number that may vary in time: its value, or its bounds.
+fn put_over_time(fields: &mut Fields, name: &str, quantity: Quantity, profile: &Profile) {
+    let (least, largest) = profile.bounds();
+    if least == largest {
+        fields.number(name, quantity, least);
+        return;
     }
+    fields
+        .known(name, quantity, Err("varies in time".to_owned()))
+        .number(&format!("least_{name}"), quantity, least)
+        .number(&format!("largest_{name}"), quantity, largest);
+}
+
+/// Load, surface velocity, law and stiffness of a contact.
+fn contact_fields(study: &SystemStudy, contact: &Contact) -> Fields {
+    let empty = || Fields::of_system(study.units());
+    let mut fields = empty();
+    fields
+        .plain("name", contact.name.as_str())
+        .plain("tangent", contact.tangent.is_some())
+        .plain("normal", contact.normal.is_some());
+    put_over_time(&mut fields, "normal_load", Quantity::Force, &contact.load());
+    put_over_time(&mut fields, "belt_velocity", Quantity::Velocity, &contact.surface_velocity);
+    let stiffness = contact.tangential_stiffness.ok_or("the contact is rigid".to_owned());
+    let breakaway = stiffness.clone().map(|stiffness| breakaway(contact, stiffness));
+    fields
+        .known("tangential_stiffness", Quantity::Stiffness, stiffness)
+        .known("breakaway", Quantity::Displacement, breakaway)
+        .nested("friction", law::fields(&contact.friction, contact.normal_load, &empty));
+    fields
+}
+
+/// The displacement μ_s N₀/k_t by which an elastic slider of this stiffness bends before it slides.
+pub(crate) fn breakaway(contact: &Contact, stiffness: f64) -> f64 {
+    contact.friction.static_coefficient() * contact.normal_load / stiffness
+}
+
+/// Target and numbers of a wave of an input.
+fn dither_fields(study: &SystemStudy, input: &Input, wave: &Wave) -> Fields {
+    let mut fields = Fields::of_system(study.units());
+    let name =
+        |contact: usize| study.system().contacts.get(contact).map(|known| known.name.clone());
+    match &input.target {
+        InputTarget::Force(row) => fields.plain("at", row.clone()),
+        InputTarget::NormalLoad { contact, reaction } => {
+            let direction = fields.plain("direction", "normal").plain("contact", name(*contact));
+            direction.plain("reaction", *reaction)
+        }
+        InputTarget::Friction { contact } => fields
+            .plain("direction", "friction")
+            .plain("contact", name(*contact))
+            .number("mean", Quantity::Ratio, input.profile.mean()),
+    };
+    let noise = wave.waveform.noise();
+    let phase = match noise {
+        Some(_) => Err("the lines of noise have random phases".to_owned()),
+        None => Ok(wave.phase),
+    };
+    fields
+        .plain("waveform", wave.waveform.name())
+        .number("amplitude", Quantity::Force, wave.amplitude)
+        .number("frequency", Quantity::FrequencyRatio, wave.frequency)
+        .known("phase", Quantity::Angle, phase)
+        .plain("has_envelope", wave.envelope.is_some());
+    if let Some(noise) = noise {
+        fields.plain("noise", noise::json(noise, wave.frequency));
+    }
+    fields
 }
 
 /// An amplitude that is given by another size than a peak force.
-pub(crate) fn given_size(given: &GivenSize, mut fields: Fields) -> Fields {
+fn size_fields(study: &SystemStudy, given: &GivenSize) -> Fields {
+    let force = study.units().unit(Quantity::Force).unwrap_or("1");
+    let unit = if given.key.unit.is_empty() { force } else { given.key.unit };
+    let mut fields = Fields::of_system(study.units());
     fields
         .plain("key", given.path.as_str())
-        .measured("value", unit_of_size(given), given.value)
+        .measured("value", unit, given.value)
         .number("amplitude", Quantity::Force, given.amplitude)
         .plain("by_actuator", given.key.needs_actuator());
     fields
 }
 
-/// The unit of the number that a size gives.
-pub(crate) fn unit_of_size(given: &GivenSize) -> &'static str {
-    if given.key.unit.is_empty() { Quantity::Force.scaled_unit() } else { given.key.unit }
+/// Warnings of the study, of slip beyond laws, of the actuator, of noise, and about the means of samples.
+fn warnings(study: &SystemStudy) -> Vec<String> {
+    let system = study.system();
+    let mut warnings = study.warnings().to_vec();
+    let has_range = system.contacts.iter().any(|contact| contact.friction.range().is_some());
+    if has_range {
+        let average = DitheredSystem::new(system).ok().and_then(|dithered| dithered.average().ok());
+        let dithered = average.as_ref().map(|average| average.contacts.as_slice());
+        warnings.extend(outside_of_laws(
+            system,
+            |speed| velocity_in_words(study, speed),
+            dithered.filter(|_| system.is_dithered()),
+        ));
+    }
+    warnings.extend(beyond_actuator(system, study.actuator(), designed(study)));
+    warnings.extend(noise::few_lines_of_system(system));
+    warnings.extend(removed_mean::warnings(system.waves().map(|wave| &wave.waveform)));
+    warnings
+}
+
+fn initial(start: &SystemStart) -> Json {
+    match start {
+        SystemStart::Rest => "rest".into(),
+        SystemStart::Sliding => "sliding".into(),
+        SystemStart::Squealing => "squealing".into(),
+        SystemStart::Base => "base".into(),
+        SystemStart::Values(state) | SystemStart::Described { state, .. } => state.clone().into(),
+    }
 }

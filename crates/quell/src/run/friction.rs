@@ -196,7 +196,13 @@ impl FrictionCurve {
     /// As JSON.
     pub fn json(&self, study: &BeltStudy) -> Json {
         let mut fields = Fields::new(study.scales());
-        fields.plain("ok", true).nested("law", super::law::fields(study));
+        let empty = || Fields::new(study.scales());
+        let belt = study.belt();
+        let mut law = super::law::fields(belt.friction(), belt.normal_load(), &empty);
+        if let Some(file) = study.measured().and_then(|measured| measured.file.as_ref()) {
+            law.plain("file", file.clone());
+        }
+        fields.plain("ok", true).nested("law", law);
         self.put(&mut fields);
         fields.plain("warnings", self.warnings(study));
         fields.finish()

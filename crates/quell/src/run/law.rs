@@ -1,4 +1,4 @@
-//! The friction law of a study as text and fields: its numbers, its formula, the error of its fit.
+//! A friction law as text and fields: its numbers, its formula, the error of its fit.
 
 use quell_model::Friction;
 use quell_model::friction::samples::Fit;
@@ -7,31 +7,28 @@ use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json};
 
 use crate::fields::Fields;
-use crate::study::BeltStudy;
-use crate::words::in_words;
 
-/// The law as an object.
-pub(super) fn fields(study: &BeltStudy) -> Fields {
-    let law = study.belt().friction();
-    let mut fields = Fields::new(study.scales());
+/// A law under a load as an object; `empty` are fields in the units of the study.
+pub(super) fn fields(law: &Friction, load: f64, empty: &dyn Fn() -> Fields) -> Fields {
+    let mut fields = empty();
     fields.plain("law", law.kind().name());
     for (parameter, value) in law.kind().parameters().iter().zip(law.values()) {
         fields.number(parameter.key(), parameter.quantity, value);
     }
     match law {
-        Friction::Expression(law) => {
+        Friction::Expression(own) => {
             let constants: Map<String, Json> =
-                law.named().map(|(name, value)| (name.to_owned(), value.into())).collect();
-            fields.plain("coefficient", law.text()).plain("constants", constants).number(
+                own.named().map(|(name, value)| (name.to_owned(), value.into())).collect();
+            fields.plain("coefficient", own.text()).plain("constants", constants).number(
                 "coefficient_at_rest",
                 Quantity::Ratio,
-                study.belt().friction().coefficient(0.0),
+                law.coefficient(0.0),
             );
         }
-        Friction::Samples(law) => {
-            let unit = law.curve().velocity_unit();
-            let fit = law.fit();
-            let mut inner = Fields::new(study.scales());
+        Friction::Samples(own) => {
+            let unit = own.curve().velocity_unit();
+            let fit = own.fit();
+            let mut inner = empty();
             inner
                 .plain("coefficient", fit.formula())
                 .plain("terms", fit.terms.len())
@@ -44,14 +41,9 @@ pub(super) fn fields(study: &BeltStudy) -> Fields {
                 .number("coefficient_far_out", Quantity::Ratio, fit.limit)
                 .number("slip_velocity_from", Quantity::Velocity, fit.range.0 * unit)
                 .number("slip_velocity_to", Quantity::Velocity, fit.range.1 * unit);
-            let file = study.measured().and_then(|measured| measured.file.as_ref());
-            if let Some(file) = file {
-                fields.plain("file", file.clone());
-            }
             fields.nested("fit", inner);
         }
         Friction::Coulomb(_) | Friction::StribeckExponential(_) | Friction::Lugre(_) => {
-            let load = study.belt().normal_load();
             let level = law.get(COEFFICIENT.path).unwrap_or_default();
             fields.number("friction_force", Quantity::Force, level * load).number(
                 "static_friction_force",
@@ -70,21 +62,20 @@ pub(super) fn fields(study: &BeltStudy) -> Fields {
     fields
 }
 
-/// Further facts about a law besides its numbers, as label and text.
-pub fn words(study: &BeltStudy) -> Vec<(String, String)> {
-    let range = study.belt().friction().range().map(|range| {
-        let speed = |speed: f64| in_words(study, Quantity::Velocity, speed);
+/// Further facts about a law besides its numbers, as label and text; `speed` writes a slip velocity.
+pub fn words(law: &Friction, speed: &dyn Fn(f64) -> String) -> Vec<(String, String)> {
+    let range = law.range().map(|range| {
         let words =
             format!("slip from {} to {}: {}", speed(range.lower), speed(range.upper), range.limit);
         ("  range".to_owned(), words)
     });
-    of_own_law(study).into_iter().chain(range).collect()
+    of_own_law(law, speed).into_iter().chain(range).collect()
 }
 
 /// Further facts about a user-defined law; none for other laws.
-fn of_own_law(study: &BeltStudy) -> Vec<(String, String)> {
+fn of_own_law(law: &Friction, speed: &dyn Fn(f64) -> String) -> Vec<(String, String)> {
     let row = |label: &str, words: String| (label.to_owned(), words);
-    match study.belt().friction() {
+    match law {
         Friction::Expression(law) => {
             let mut rows = vec![row("coefficient μ(v)", law.text().to_owned())];
             rows.extend(
@@ -95,10 +86,12 @@ fn of_own_law(study: &BeltStudy) -> Vec<(String, String)> {
         Friction::Samples(law) => {
             let fit = law.fit();
             let unit = law.curve().velocity_unit();
-            let speed = |speed: f64| in_words(study, Quantity::Velocity, speed * unit);
             let (from, to) = fit.range;
             vec![
-                row("samples", format!("{} from {} to {}", fit.samples, speed(from), speed(to))),
+                row(
+                    "samples",
+                    format!("{} from {} to {}", fit.samples, speed(from * unit), speed(to * unit)),
+                ),
                 row("  fit μ(v)", fit.formula()),
                 row("  error of the fit", error(fit)),
             ]

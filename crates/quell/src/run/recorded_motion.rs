@@ -2,7 +2,6 @@
 //!
 //! Every kind of study gives its system, the observed row and the start; the motion is that of the engine for systems.
 
-use quell_dynamics::belt_motion::motion_start;
 use quell_dynamics::motion::{Motion, MotionStart, ReadingSampler};
 use quell_input::record::TimeSeries;
 use quell_model::RecordedQuantity;
@@ -10,14 +9,12 @@ use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::belt_start::begin;
 use super::failed;
-use super::simulate::NATURAL_PERIOD;
 use super::system::has_equations;
 use super::system::simulate::slowest_period;
 use super::system::start::start_of;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::study::{BeltStudy, SystemStudy};
+use crate::study::SystemStudy;
 
 /// A study as the structure that a record shows.
 #[derive(Clone, Debug)]
@@ -46,31 +43,11 @@ pub struct RecordScales {
 }
 
 impl ObservedMotion {
-    /// The motion of a belt.
-    ///
-    /// # Errors
-    /// A start that does not exist.
-    pub fn of_belt(study: &BeltStudy) -> Result<Self, Failure> {
-        let system = study.belt().system();
-        let start = motion_start(&system, begin(study)?);
-        let scales = study.scales();
-        let rate = scales.map(|scales| 1.0 / scales.per_unit(Quantity::Time));
-        let scales = RecordScales {
-            second: rate,
-            metre: scales.and_then(|scales| {
-                let metres = scales.units().si_per_unit(Quantity::Displacement)?;
-                Some(1.0 / metres)
-            }),
-            plain_time: rate.unwrap_or(1.0),
-        };
-        Ok(Self { system, row: vec![1.0], start, scales, period: Some(NATURAL_PERIOD) })
-    }
-
-    /// The motion of a system.
+    /// The motion of a study.
     ///
     /// # Errors
     /// A measured frequency response; a start that does not exist.
-    pub fn of_system(study: &SystemStudy, verb: &str) -> Result<Self, Failure> {
+    pub fn of(study: &SystemStudy, verb: &str) -> Result<Self, Failure> {
         has_equations(study, verb)?;
         let metre = study.units().si_per_unit(Quantity::Displacement).map(|metre| 1.0 / metre);
         let second = study.time_per_second();

@@ -161,6 +161,8 @@ pub enum NoImage {
     Stopped(MotionStopped),
     /// The dithers have no common period.
     NoPeriod,
+    /// Their common period is another at every value of the parameter.
+    PeriodJumps,
     /// The variational equation could not be integrated.
     NoVariation,
 }
@@ -172,6 +174,9 @@ impl fmt::Display for NoImage {
             Self::Immobile(why) => why.fmt(f),
             Self::Stopped(why) => why.fmt(f),
             Self::NoPeriod => f.write_str("the frequencies of the dithers have no common period"),
+            Self::PeriodJumps => f.write_str(
+                "the common period of the dithers jumps from one value of the parameter to the next, so that no response can be followed",
+            ),
             Self::NoVariation => f.write_str("the variational equation could not be integrated"),
         }
     }

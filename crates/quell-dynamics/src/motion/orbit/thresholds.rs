@@ -4,6 +4,7 @@
 //! ([`quell_numerics::continuation::branch`]), as for the belt ([`crate::orbit::threshold`]).
 
 use quell_linear::criticality::of_steady_sliding;
+use quell_linear::pure_slip::period;
 use quell_model::System;
 use quell_numerics::continuation::branch::{
     BranchSide, FixedPointBranch, Follow, SpecialPoint, follow,
@@ -14,7 +15,7 @@ use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::BifurcationKind;
 
 use super::super::Motion;
-use super::family::{BorderGuard, MotionFamily, MotionSignature, SystemAt, shot_of};
+use super::family::{BorderGuard, MotionFamily, MotionSignature, NoImage, SystemAt, shot_of};
 use super::periodic::{NoMotionOrbit, base_motion, scale_of, sliding_state};
 use crate::orbit::OrbitVerdict;
 use crate::orbit::threshold::{BranchEnding, ThresholdKind};
@@ -26,6 +27,9 @@ const FIRST_STEPS: u32 = 8;
 /// Difference of two contacts' distances from their borders, relative to their velocities or loads, up to which they graze together:
 /// beyond the error of a distance and far below what two different contacts have in common by chance.
 const TOGETHER: f64 = 1e-9;
+
+/// Relative change of a period over 10⁻⁷ of a window that no smooth period has: a frequency over a window from 1 to 10⁴ changes by less.
+const SMALL_CHANGE: f64 = 0.01;
 
 /// A value at which stability changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,9 +107,12 @@ pub fn motion_thresholds(
     steps: u32,
     near: Option<(&[f64], u32)>,
 ) -> Result<MotionThresholds, NoMotionOrbit> {
-    let invalid = |why| NoMotionOrbit::NoImage(super::family::NoImage::Invalid(why));
+    let invalid = |why| NoMotionOrbit::NoImage(NoImage::Invalid(why));
     let first = at(&[from]).map_err(invalid)?;
     at(&[to]).map_err(invalid)?;
+    if period_jumps(at, &first, (from, to)) {
+        return Err(NoMotionOrbit::NoImage(NoImage::PeriodJumps));
+    }
     let (state, periods) = match near {
         Some((state, periods)) => (state.to_vec(), periods.max(1)),
         None => (first_state(&first)?, 1),
@@ -155,6 +162,13 @@ pub fn motion_thresholds(
         signature: point.signature.clone(),
     });
     Ok(MotionThresholds { thresholds, changes, branch: branch.collect(), ending })
+}
+
+/// Whether the period of the dithers has no derivative in the parameter: that of two frequencies, one of which varies.
+fn period_jumps(at: &SystemAt<'_>, first: &System, (from, to): (f64, f64)) -> bool {
+    let (here, step) = (period(first), 1e-7 * (to - from));
+    let next = at(&[from + step]).ok().and_then(|next| period(&next));
+    here.is_some_and(|here| next.is_none_or(|next| (next / here - 1.0).abs() > SMALL_CHANGE))
 }
 
 fn first_state(system: &System) -> Result<Vec<f64>, NoMotionOrbit> {

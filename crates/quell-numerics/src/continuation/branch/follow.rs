@@ -43,7 +43,7 @@ pub fn follow<F: PeriodMap>(
     let mut length = options.longest;
     // Whether the search beyond the obstacle that stopped the steps was already made.
     let mut searched_beyond = false;
-    let mut leaps = 0;
+    let (mut leaps, mut kinks) = (0, 0);
     let end = loop {
         let at = run.value(here.unknowns[n]);
         let towards_end = if here.tangent[n] > 0.0 { 1.0 } else { 0.0 };
@@ -109,6 +109,15 @@ pub fn follow<F: PeriodMap>(
             }
             StepOutcome::Failed if length > options.shortest => length *= 0.4,
             StepOutcome::Failed => {
+                kinks += 1;
+                let bent = (kinks <= MOST_KINKS).then(|| over_a_kink(&run, &here)).flatten();
+                if let Some((next, step_length)) = bent {
+                    length = step_length;
+                    points.push(run.point(&next));
+                    before = None;
+                    here = next;
+                    continue;
+                }
                 let over = over_an_obstacle(
                     &run,
                     &here,
@@ -135,9 +144,6 @@ fn over_an_obstacle<F: PeriodMap>(
     out: &mut Vec<SpecialPoint<F::Signature>>,
 ) -> Option<(BranchSolution<F::Signature>, f64)> {
     if !searched_beyond {
-        if let Some(joined) = over_a_kink(run, here) {
-            return Some(joined);
-        }
         let smoother = run.onto_smoother_piece(here, out);
         let smoother = smoother.map(|next| (next, 100.0 * run.follow.shortest));
         if let Some(joined) = smoother.or_else(|| over_a_corner(run, here, out)) {
@@ -148,10 +154,14 @@ fn over_an_obstacle<F: PeriodMap>(
     (*leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
 }
 
+/// Kinks along one branch, so that a branch that no step follows ends.
+const MOST_KINKS: usize = 8;
+
 /// Length of the steps over a kink, over the shortest one.
 const KINK_STEPS: [f64; 2] = [10.0, 100.0];
 
-/// Least cosine of the angle by which a branch turns at a kink: less could be a way back.
+/// Least cosine of the angle by which a branch turns at a kink, where it goes on in the same direction of the parameter: less could be a
+/// way back.
 const KINK: f64 = 0.5;
 
 /// The point just beyond a kink, and the distance to it: where an event passes t = 0, the state there changes its direction, and the
@@ -160,6 +170,7 @@ fn over_a_kink<F: PeriodMap>(
     run: &ContinuationRun<'_, F>,
     here: &BranchSolution<F::Signature>,
 ) -> Option<(BranchSolution<F::Signature>, f64)> {
+    let n = run.family.dimension();
     KINK_STEPS.iter().find_map(|steps| {
         let length = steps * run.follow.shortest;
         let pairs = here.unknowns.iter().zip(&here.tangent);
@@ -168,6 +179,7 @@ fn over_a_kink<F: PeriodMap>(
         let is_joined = next.image.signature == here.image.signature
             && distance(&next.unknowns, &predicted) <= length
             && cosine(&next.tangent, &here.tangent) > KINK
+            && next.tangent[n] * here.tangent[n] > 0.0
             && unstable(&next.multipliers) == unstable(&here.multipliers);
         is_joined.then_some((next, length))
     })

@@ -51,9 +51,8 @@ def times(study: Study) -> tuple[float, float]:
     if kind == "belt":
         facts = study.check().facts
         rate = study._native.angular_frequency or 1.0
-        ratios = [highest(it) for it in facts["dithers"] if it["amplitude"]]
-        slow = 2.0 * math.pi / rate
-        return slow, slow / max(ratios) if ratios else 0.0
+        rates = [highest(it) for it in facts["dithers"] if it["amplitude"]]
+        return 2.0 * math.pi / rate, 2.0 * math.pi / max(rates) if rates else 0.0
     facts = steady(study)[0].stability().facts
     if kind == "disc":
         slow = 2.0 * math.pi / max(facts.get("frequency") or 1.0, 1e-3)
@@ -66,9 +65,9 @@ def times(study: Study) -> tuple[float, float]:
 
 
 def highest(dither: Mapping[str, Any]) -> float:
-    """The frequency ratio of a dither of a belt, of noise the upper end of its band."""
+    """The angular frequency of a dither, of noise the upper end of its band."""
     noise = dither.get("noise") or {}
-    return float(max(noise.get("band", [dither["frequency_ratio"]])))
+    return float(max(noise.get("band", [dither["frequency"]])))
 
 
 def frequency_of(dither: Mapping[str, Any]) -> float:

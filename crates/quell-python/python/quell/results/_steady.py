@@ -22,37 +22,34 @@ class Check(_columns.CheckColumns, Result):
 
     verb = "check"
     coordinates: list[str]
-    """System: names of the coordinates or states."""
-    contacts: list[str]
-    """System: names of the contacts."""
+    """Belt and system: names of the coordinates or states."""
+    damping_ratios: npt.NDArray[np.float64]
+    """Belt and system: damping ratio of each coordinate alone; absent where one has no spring of its own."""
+    contacts: list[dict[str, Any]]
+    """Belt and system: ``name``, ``normal_load``, ``belt_velocity``, ``tangential_stiffness`` and ``breakaway`` of each contact, whether
+    ``normal`` and ``tangent`` are given, and its ``friction``: ``law``, its parameters, and the range of slip in which it holds; of a fit also
+    its error. What varies in time has ``least_`` and ``largest_``."""
     unit_system: Literal["none", "SI", "mm-t-s"]
     """The units of the numbers."""
     title: str | None
     """Title of the study."""
-    kind: str
-    """System: the kind of study."""
-    form: str
-    """System: how the structure is given, such as "matrices" or "modes"."""
-    belt: dict[str, float]
-    """Belt: its numbers."""
+    form: Literal["coordinates", "states"]
+    """Belt and system: how the structure is given."""
     disc: dict[str, Any]
     """Disc: ``modes`` (their number), ``modes_from``, ``loads``, ``speed``, ``without``."""
     friction: dict[str, Any]
-    """Belt and disc: ``law``, its parameters, and the range of slip in which it holds; of a fit also its error."""
+    """Disc: ``law`` and its parameters."""
     dither: dict[str, Any] | None
     """Disc: its dither."""
     dithers: list[dict[str, Any]]
-    """Belt and system: the dithers, with ``amplitude_ratio`` (velocity of a free mass) of a belt."""
+    """Belt and system: the waves of the dithers, each with its place, ``waveform``, ``amplitude``, ``frequency``, ``phase``, ``has_envelope``."""
     given_amplitudes: list[dict[str, Any]]
     """Belt and system: amplitudes of the dither that are given by another size than a peak force: ``key``, ``value``, ``unit``,
     ``amplitude``, ``amplitude_unit``, and whether it is ``by_actuator``."""
-    contact_laws: list[dict[str, Any]]
-    """System: ``name``, ``normal_load``, ``belt_velocity`` with their units, ``law``, and whether ``normal`` and ``tangent`` are
-    given, of each contact."""
     observe: list[float]
-    """System: row of the observed displacement."""
-    initial: str
-    """System: the initial state in words."""
+    """Belt and system: row of the observed displacement."""
+    initial: str | list[float]
+    """Belt and system: the initial state in words or numbers."""
     sweeps: list[dict[str, Any]]
     """Axes of a map: ``parameter`` and its values."""
 

@@ -60,13 +60,16 @@ pub struct DescribedSystem {
     pub initial: SystemStart,
     /// What is valid but unlikely, in sentences.
     pub warnings: Vec<String>,
+    /// Amplitudes that are given by another size than a peak force.
+    pub sizes: Vec<GivenSize>,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
 }
 
 impl From<DescribedSystem> for SystemSetup {
     fn from(described: DescribedSystem) -> Self {
-        let DescribedSystem { system, units, observe, initial, mut warnings, time } = described;
+        let DescribedSystem { system, units, observe, initial, mut warnings, sizes, time } =
+            described;
         warnings.extend(passivity::warnings(&system.contacts, units));
         Self {
             system: Arc::new(system),
@@ -78,7 +81,7 @@ impl From<DescribedSystem> for SystemSetup {
             response: None,
             design: None,
             actuator: None,
-            sizes: Arc::default(),
+            sizes: sizes.into(),
             time,
         }
     }

@@ -10,6 +10,7 @@ use crate::run::friction_export::FrictionExport;
 use crate::run::law;
 use crate::study::{BeltStudy, UnitSystem};
 use crate::words::digits;
+use crate::words::in_words;
 
 /// The units of the numbers of a file: those of a study with units, else those of the equations.
 pub(super) struct ExportUnits {
@@ -71,7 +72,9 @@ pub(super) fn provenance(
         table.points.len(),
         digits(table.largest_error)
     ));
-    for (label, words) in law::words(study) {
+    for (label, words) in
+        law::words(study.belt().friction(), &|speed| in_words(study, Quantity::Velocity, speed))
+    {
         lines.push(format!("{}: {words}", label.trim()));
     }
     lines.extend(export.warnings.iter().map(|warning| format!("warning: {warning}")));

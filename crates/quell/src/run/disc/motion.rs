@@ -77,6 +77,7 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
         observe: observed_row(study),
         initial,
         warnings: study.warnings().to_vec(),
+        sizes: Vec::new(),
         time,
     })
 }

@@ -49,7 +49,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFou
 }
 
 /// The dither whose amplitude the study designs, or the first.
-pub(super) fn designed(study: &SystemStudy) -> usize {
+pub(in crate::run) fn designed(study: &SystemStudy) -> usize {
     let varied = study.design().map_or(&[][..], |design| &design.vary);
     varied.iter().find_map(|range| study.dither_of(&range.path)).unwrap_or(0)
 }

@@ -2,7 +2,6 @@
 
 pub mod actuator;
 pub mod attractor;
-pub mod check;
 pub mod cycle_samples;
 pub mod design;
 pub mod exact;

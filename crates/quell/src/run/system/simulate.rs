@@ -268,17 +268,9 @@ pub(super) fn failed_run(verb: &str, system: &System, stopped: &MotionStopped) -
 
 /// Warnings about slip beyond the ranges of the laws; `largest` is the largest slip speed of a contact.
 pub(crate) fn beyond_laws(study: &SystemStudy, largest: impl Fn(usize) -> f64) -> Vec<String> {
-    beyond_laws_of(study.system(), |speed| velocity_in_words(study, speed), largest)
-}
-
-/// [`beyond_laws`] of a system whose velocities are written so.
-pub(crate) fn beyond_laws_of(
-    system: &System,
-    in_words: impl Fn(f64) -> String,
-    largest: impl Fn(usize) -> f64,
-) -> Vec<String> {
-    let contacts = system.contacts.iter().enumerate();
-    let warning = |(index, contact)| range::at_contact(contact, largest(index), &in_words);
+    let in_words = |speed| velocity_in_words(study, speed);
+    let contacts = study.system().contacts.iter().enumerate();
+    let warning = |(index, contact)| range::at_contact(contact, largest(index), in_words);
     contacts.filter_map(warning).collect()
 }
 
