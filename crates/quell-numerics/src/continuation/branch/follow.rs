@@ -41,9 +41,7 @@ pub fn follow<F: PeriodMap>(
     let mut before: MaybeSolution<F> = None;
     let mut passed_before = 0;
     let mut length = options.longest;
-    // Whether the search beyond the obstacle that stopped the steps was already made.
-    let mut searched_beyond = false;
-    let (mut leaps, mut kinks) = (0, 0);
+    let mut tried = Tried::default();
     let end = loop {
         let at = run.value(here.unknowns[n]);
         let towards_end = if here.tangent[n] > 0.0 { 1.0 } else { 0.0 };
@@ -77,7 +75,7 @@ pub fn follow<F: PeriodMap>(
                     continue;
                 }
                 passed_before = passed;
-                searched_beyond = false;
+                tried.beyond = false;
                 if let Some(before) = before.as_ref().filter(|_| special_points.len() == passed) {
                     dips(&run, [before, &here, &next], &mut special_points);
                 }
@@ -95,7 +93,7 @@ pub fn follow<F: PeriodMap>(
                 }
             }
             StepOutcome::Over(Some(next)) => {
-                searched_beyond = false;
+                tried.beyond = false;
                 length = distance(&next.unknowns, &here.unknowns)
                     .clamp(10.0 * options.shortest, options.longest);
                 points.push(run.point(&next));
@@ -109,23 +107,8 @@ pub fn follow<F: PeriodMap>(
             }
             StepOutcome::Failed if length > options.shortest => length *= 0.4,
             StepOutcome::Failed => {
-                kinks += 1;
-                let bent = (kinks <= MOST_KINKS).then(|| over_a_kink(&run, &here)).flatten();
-                if let Some((next, step_length)) = bent {
-                    length = step_length;
-                    points.push(run.point(&next));
-                    before = None;
-                    here = next;
-                    continue;
-                }
-                let over = over_an_obstacle(
-                    &run,
-                    &here,
-                    (searched_beyond, &mut leaps),
-                    &mut special_points,
-                );
+                let over = over_an_obstacle(&run, &here, &mut tried, &mut special_points);
                 let Some((next, step_length)) = over else { break End::Lost { at } };
-                searched_beyond = true;
                 length = step_length;
                 points.push(run.point(&next));
                 before = None;
@@ -136,22 +119,35 @@ pub fn follow<F: PeriodMap>(
     Ok(FixedPointBranch { points, special_points, end })
 }
 
+/// What was tried where no step follows a branch.
+#[derive(Default)]
+struct Tried {
+    /// Whether the search beyond the obstacle that stopped the steps was already made.
+    beyond: bool,
+    kinks: usize,
+    leaps: usize,
+}
+
 /// The point beyond what stopped the steps, and the distance to it. A smoother piece and a corner are sought once.
 fn over_an_obstacle<F: PeriodMap>(
     run: &ContinuationRun<'_, F>,
     here: &BranchSolution<F::Signature>,
-    (searched_beyond, leaps): (bool, &mut usize),
+    tried: &mut Tried,
     out: &mut Vec<SpecialPoint<F::Signature>>,
 ) -> Option<(BranchSolution<F::Signature>, f64)> {
-    if !searched_beyond {
+    tried.kinks += 1;
+    if let Some(joined) = (tried.kinks <= MOST_KINKS).then(|| over_a_kink(run, here)).flatten() {
+        return Some(joined);
+    }
+    if !std::mem::replace(&mut tried.beyond, true) {
         let smoother = run.onto_smoother_piece(here, out);
         let smoother = smoother.map(|next| (next, 100.0 * run.follow.shortest));
         if let Some(joined) = smoother.or_else(|| over_a_corner(run, here, out)) {
             return Some(joined);
         }
     }
-    *leaps += 1;
-    (*leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
+    tried.leaps += 1;
+    (tried.leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
 }
 
 /// Kinks along one branch, so that a branch that no step follows ends.

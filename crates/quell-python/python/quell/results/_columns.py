@@ -268,20 +268,13 @@ class BifurcationColumns(Frozen):
 class CheckColumns(Frozen):
     """Of :class:`quell.results.Check`."""
 
-    belt_belt_velocity: float
-    belt_breakaway: float
-    belt_damping_ratio: float
-    belt_normal_load: float
-    belt_tangential_stiffness: float
-    contact_law_belt_velocity: npt.NDArray[np.float64]
-    contact_law_belt_velocity_unit: npt.NDArray[np.str_]
-    contact_law_law: npt.NDArray[np.str_]
-    contact_law_name: npt.NDArray[np.str_]
-    contact_law_normal: npt.NDArray[Any]
-    contact_law_normal_load: npt.NDArray[np.float64]
-    contact_law_normal_load_unit: npt.NDArray[np.str_]
-    contact_law_tangent: npt.NDArray[Any]
-    contact_law_varies_in_time: npt.NDArray[Any]
+    contact_belt_velocity: npt.NDArray[np.float64]
+    contact_breakaway: npt.NDArray[np.float64]
+    contact_name: npt.NDArray[np.str_]
+    contact_normal: npt.NDArray[Any]
+    contact_normal_load: npt.NDArray[np.float64]
+    contact_tangent: npt.NDArray[Any]
+    contact_tangential_stiffness: npt.NDArray[np.float64]
     disc_load_angle_deg: npt.NDArray[np.float64]
     disc_load_damping: npt.NDArray[np.float64]
     disc_load_dither_phase_deg: npt.NDArray[np.float64]
@@ -292,18 +285,11 @@ class CheckColumns(Frozen):
     disc_modes: Any
     disc_speed: float
     dither_amplitude: Any
-    dither_amplitude_ratio: npt.NDArray[np.float64]
-    dither_direction: npt.NDArray[np.str_]
     dither_frequency: Any
-    dither_frequency_ratio: Any
+    dither_frequency_ratio: float
     dither_has_envelope: npt.NDArray[Any]
     dither_phase: npt.NDArray[np.float64]
     dither_waveform: npt.NDArray[np.str_]
-    friction_minimum_coefficient: float
-    friction_range_from: float
-    friction_range_to: float
-    friction_reference_velocity: float
-    friction_static_coefficient: float
     observe_value: npt.NDArray[np.float64]
 
 
@@ -1161,7 +1147,6 @@ class WaveformsColumns(Frozen):
     number: npt.NDArray[np.float64]
     waveform: npt.NDArray[np.uint8]
     waveform_amplitude: npt.NDArray[np.float64]
-    waveform_amplitude_ratio: npt.NDArray[np.float64]
     waveform_duty_cycle: npt.NDArray[np.float64]
     waveform_exact_amplitude: npt.NDArray[np.float64]
     waveform_exact_power: npt.NDArray[np.float64]
