@@ -41,7 +41,7 @@ pub fn follow<F: PeriodMap>(
     let mut before: MaybeSolution<F> = None;
     let mut passed_before = 0;
     let mut length = options.longest;
-    let mut tried = Tried::default();
+    let mut passed_over = PassedObstacles::default();
     let end = loop {
         let at = run.value(here.unknowns[n]);
         let towards_end = if here.tangent[n] > 0.0 { 1.0 } else { 0.0 };
@@ -75,7 +75,7 @@ pub fn follow<F: PeriodMap>(
                     continue;
                 }
                 passed_before = passed;
-                tried.beyond = false;
+                passed_over.beyond = false;
                 if let Some(before) = before.as_ref().filter(|_| special_points.len() == passed) {
                     dips(&run, [before, &here, &next], &mut special_points);
                 }
@@ -93,7 +93,7 @@ pub fn follow<F: PeriodMap>(
                 }
             }
             StepOutcome::Over(Some(next)) => {
-                tried.beyond = false;
+                passed_over.beyond = false;
                 length = distance(&next.unknowns, &here.unknowns)
                     .clamp(10.0 * options.shortest, options.longest);
                 points.push(run.point(&next));
@@ -107,7 +107,7 @@ pub fn follow<F: PeriodMap>(
             }
             StepOutcome::Failed if length > options.shortest => length *= 0.4,
             StepOutcome::Failed => {
-                let over = over_an_obstacle(&run, &here, &mut tried, &mut special_points);
+                let over = over_an_obstacle(&run, &here, &mut passed_over, &mut special_points);
                 let Some((next, step_length)) = over else { break End::Lost { at } };
                 length = step_length;
                 points.push(run.point(&next));
@@ -121,7 +121,7 @@ pub fn follow<F: PeriodMap>(
 
 /// What was tried where no step follows a branch.
 #[derive(Default)]
-struct Tried {
+struct PassedObstacles {
     /// Whether the search beyond the obstacle that stopped the steps was already made.
     beyond: bool,
     kinks: usize,
@@ -132,22 +132,24 @@ struct Tried {
 fn over_an_obstacle<F: PeriodMap>(
     run: &ContinuationRun<'_, F>,
     here: &BranchSolution<F::Signature>,
-    tried: &mut Tried,
+    passed_over: &mut PassedObstacles,
     out: &mut Vec<SpecialPoint<F::Signature>>,
 ) -> Option<(BranchSolution<F::Signature>, f64)> {
-    tried.kinks += 1;
-    if let Some(joined) = (tried.kinks <= MOST_KINKS).then(|| over_a_kink(run, here)).flatten() {
+    passed_over.kinks += 1;
+    if let Some(joined) =
+        (passed_over.kinks <= MOST_KINKS).then(|| over_a_kink(run, here)).flatten()
+    {
         return Some(joined);
     }
-    if !std::mem::replace(&mut tried.beyond, true) {
+    if !std::mem::replace(&mut passed_over.beyond, true) {
         let smoother = run.onto_smoother_piece(here, out);
         let smoother = smoother.map(|next| (next, 100.0 * run.follow.shortest));
         if let Some(joined) = smoother.or_else(|| over_a_corner(run, here, out)) {
             return Some(joined);
         }
     }
-    tried.leaps += 1;
-    (tried.leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
+    passed_over.leaps += 1;
+    (passed_over.leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
 }
 
 /// Kinks along one branch, so that a branch that no step follows ends.
