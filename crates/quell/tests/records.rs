@@ -245,7 +245,7 @@ fn a_record_of_the_study_itself_has_no_difference() {
     let count = 8000;
     let times: Vec<f64> = (0..count).map(|k| 0.00025 * f64::from(k)).collect();
     let rate = motion.scales.second.expect("in SI");
-    let settled = 200.0 * std::f64::consts::TAU;
+    let settled = 200.0 * motion.period.expect("it oscillates");
     let at: Vec<f64> = times.iter().map(|t| t.mul_add(rate, settled)).collect();
     let quantity = quell_model::RecordedQuantity::Velocity;
     let path = |name: &str, motion: &quell::run::recorded_motion::ObservedMotion| {
