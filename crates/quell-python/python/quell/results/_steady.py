@@ -23,7 +23,7 @@ class Check(_columns.CheckColumns, Result):
     verb = "check"
     coordinates: list[str]
     """Belt and system: names of the coordinates or states."""
-    damping_ratios: npt.NDArray[np.float64]
+    damping_ratios: list[float]
     """Belt and system: damping ratio of each coordinate alone; absent where one has no spring of its own."""
     contacts: list[dict[str, Any]]
     """Belt and system: ``name``, ``normal_load``, ``belt_velocity``, ``tangential_stiffness`` and ``breakaway`` of each contact, whether
@@ -37,8 +37,6 @@ class Check(_columns.CheckColumns, Result):
     """Belt and system: how the structure is given."""
     disc: dict[str, Any]
     """Disc: ``modes`` (their number), ``modes_from``, ``loads``, ``speed``, ``without``."""
-    friction: dict[str, Any]
-    """Disc: ``law`` and its parameters."""
     dither: dict[str, Any] | None
     """Disc: its dither."""
     dithers: list[dict[str, Any]]
