@@ -101,11 +101,6 @@ impl Belt {
         self.tangential_stiffness
     }
 
-    /// The displacement μ_s F/k_t by which an elastic contact of this stiffness bends before it slides.
-    pub fn breakaway(&self, stiffness: f64) -> f64 {
-        self.friction.static_coefficient() * self.normal_load / stiffness
-    }
-
     /// Whether friction has a state of its own: an elastic slider, or a law with one ([`Friction::bristles`]).
     pub fn has_contact_state(&self) -> bool {
         self.tangential_stiffness.is_some() || self.friction.bristles().is_some()

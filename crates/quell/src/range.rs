@@ -18,7 +18,7 @@ use crate::study::BeltStudy;
 use crate::words::in_words;
 
 /// Time for which a start is observed: its first slow period, in which a decaying transient is largest.
-const OF_START: f64 = TAU;
+pub(crate) const OF_START: f64 = TAU;
 
 /// Warnings about contacts of a system whose slip leaves the range of their law; `dithered` has their fast motion.
 pub(crate) fn outside_of_laws(
@@ -104,8 +104,8 @@ impl SlipMet {
     }
 }
 
-/// Largest slip speed in the first slow period of each run, computed in one batch; 0 if the law has no range.
-pub(crate) fn of_starts(cases: &[(&Belt, Start)]) -> Vec<f64> {
+/// Largest slip speed of each run up to `length` after its start, computed in one batch; 0 if the law has no range.
+pub(crate) fn of_starts(cases: &[(&Belt, Start)], length: f64) -> Vec<f64> {
     let mut slips: Vec<LargestSlip> = cases.iter().map(|(belt, _)| LargestSlip::of(belt)).collect();
     let runs = cases
         .iter()
@@ -113,7 +113,7 @@ pub(crate) fn of_starts(cases: &[(&Belt, Start)]) -> Vec<f64> {
         .filter(|(_, slip)| slip.watches())
         .map(|(&(belt, start), slip)| {
             let observer: &mut dyn Observer = slip;
-            SimulationRun { belt, start, until: start.time + OF_START, observer }
+            SimulationRun { belt, start, until: start.time + length, observer }
         })
         .collect();
     simulate_many(runs, DEFAULT_TOLERANCE);

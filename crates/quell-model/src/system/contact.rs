@@ -55,6 +55,12 @@ impl Contact {
     pub fn has_state(&self) -> bool {
         self.tangential_stiffness.is_some() || self.friction.bristles().is_some()
     }
+
+    /// The displacement μ_s N₀/k_t by which an elastic slider bends before it slides; `None` of a rigid contact.
+    pub fn breakaway(&self) -> Option<f64> {
+        let stiffness = self.tangential_stiffness?;
+        Some(self.friction.static_coefficient() * self.normal_load / stiffness)
+    }
 }
 
 impl Contact {

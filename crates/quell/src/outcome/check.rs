@@ -105,9 +105,9 @@ fn table_of_system(study: &SystemStudy) -> String {
         for (label, words) in law::words(law, &|speed| with(Quantity::Velocity, speed)) {
             table.word(&format!("  {}", label.trim_start()), &words);
         }
-        if let Some(stiffness) = contact.tangential_stiffness {
+        if let Some((stiffness, breakaway)) = contact.tangential_stiffness.zip(contact.breakaway())
+        {
             table.word("  tangential stiffness k_t", &with(Quantity::Stiffness, stiffness));
-            let breakaway = check::breakaway(contact, stiffness);
             table.word("    breakaway", &with(Quantity::Displacement, breakaway));
         }
     }

@@ -1,7 +1,5 @@
 //! `response --window`.
 
-use std::fmt::Write as _;
-
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -24,15 +22,12 @@ impl Presented<SystemSetup> for WindowedResponse {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        self.contacts.iter().fold(String::new(), |mut text, (name, means)| {
+        let each = self.contacts.iter().map(|(name, means)| {
             let force = in_units(study.units(), Quantity::Force, means.friction);
             let share = 100.0 * means.stick_fraction;
-            let _ = writeln!(
-                text,
-                "  contact {name}: mean friction {force}, in stick {share:.1} % of the time"
-            );
-            text
-        })
+            format!("  contact {name}: mean friction {force}, in stick {share:.1} % of the time\n")
+        });
+        each.collect()
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {

@@ -93,18 +93,16 @@ fn contact_fields(study: &SystemStudy, contact: &Contact) -> Fields {
         .plain("normal", contact.normal.is_some());
     put_over_time(&mut fields, "normal_load", Quantity::Force, &contact.load());
     put_over_time(&mut fields, "belt_velocity", Quantity::Velocity, &contact.surface_velocity);
-    let stiffness = contact.tangential_stiffness.ok_or("the contact is rigid".to_owned());
-    let breakaway = stiffness.clone().map(|stiffness| breakaway(contact, stiffness));
+    let rigid = || "the contact is rigid".to_owned();
     fields
-        .known("tangential_stiffness", Quantity::Stiffness, stiffness)
-        .known("breakaway", Quantity::Displacement, breakaway)
+        .known(
+            "tangential_stiffness",
+            Quantity::Stiffness,
+            contact.tangential_stiffness.ok_or_else(rigid),
+        )
+        .known("breakaway", Quantity::Displacement, contact.breakaway().ok_or_else(rigid))
         .nested("friction", law::fields(&contact.friction, contact.normal_load, &empty));
     fields
-}
-
-/// The displacement μ_s N₀/k_t by which an elastic slider of this stiffness bends before it slides.
-pub(crate) fn breakaway(contact: &Contact, stiffness: f64) -> f64 {
-    contact.friction.static_coefficient() * contact.normal_load / stiffness
 }
 
 /// Target and numbers of a wave of an input.
@@ -159,13 +157,11 @@ fn warnings(study: &SystemStudy) -> Vec<String> {
     let mut warnings = study.warnings().to_vec();
     let has_range = system.contacts.iter().any(|contact| contact.friction.range().is_some());
     if has_range {
-        let average = DitheredSystem::new(system).ok().and_then(|dithered| dithered.average().ok());
-        let dithered = average.as_ref().map(|average| average.contacts.as_slice());
-        warnings.extend(outside_of_laws(
-            system,
-            |speed| velocity_in_words(study, speed),
-            dithered.filter(|_| system.is_dithered()),
-        ));
+        let dithered = system.is_dithered().then(|| DitheredSystem::new(system)?.average());
+        let average = dithered.and_then(Result::ok);
+        let contacts = average.as_ref().map(|average| average.contacts.as_slice());
+        let in_words = |speed| velocity_in_words(study, speed);
+        warnings.extend(outside_of_laws(system, in_words, contacts));
     }
     warnings.extend(beyond_actuator(system, study.actuator(), designed(study)));
     warnings.extend(noise::few_lines_of_system(system));

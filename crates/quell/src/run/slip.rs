@@ -8,11 +8,11 @@ use quell_linear::pure_slip::period;
 use quell_model::{OneMass, System};
 
 use super::system::attractor::starts_of_mass;
-use crate::range::of_starts;
+use crate::range::{OF_START, of_starts};
 
 /// Periods of the vibration over which the slip of a motion of several masses is observed: the first ones, in which a transient is
-/// largest. Over fewer a slow beat could be missed, and with it a warning; more only take longer. One mass has no beat: its first one is
-/// enough.
+/// largest. Over fewer a slow beat could be missed, and with it a warning; more only take longer. One mass has no beat of its own: its first
+/// one is enough. A common period of the dither that is longer is observed whole.
 const SLOW_PERIODS: f64 = 4.0;
 
 /// The largest slip speeds so far.
@@ -40,7 +40,7 @@ impl SlipReached {
             return;
         }
         match system.one_mass() {
-            Some(mass) => self.include(&[largest_of_mass(&mass, states)]),
+            Some(mass) => self.include(&[largest_of_mass(system, &mass, states)]),
             None => states.iter().for_each(|state| self.add_motion(system, state)),
         }
     }
@@ -70,10 +70,11 @@ impl SlipReached {
     }
 }
 
-/// The largest slip speed in the first period of the vibration of one mass from several states.
-fn largest_of_mass(mass: &OneMass, states: &[Vec<f64>]) -> f64 {
+/// The largest slip speed in the first period of the vibration of one mass, or of the dither, from several states.
+fn largest_of_mass(system: &System, mass: &OneMass, states: &[Vec<f64>]) -> f64 {
     let starts = starts_of_mass(mass, states);
     let cases: Vec<_> = starts.iter().map(|start| (mass.belt(), *start)).collect();
+    let length = period(system).map_or(OF_START, |period| OF_START.max(mass.rate() * period));
     // Its slip is that of the belt.
-    of_starts(&cases).into_iter().fold(0.0, f64::max)
+    of_starts(&cases, length).into_iter().fold(0.0, f64::max)
 }

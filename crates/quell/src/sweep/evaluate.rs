@@ -441,7 +441,7 @@ fn responses(
             .collect();
         let firsts: Vec<(&Belt, Start)> =
             cases.iter().map(|case| (&case.belt, case.start)).collect();
-        let firsts = range::of_starts(&firsts);
+        let firsts = range::of_starts(&firsts, range::OF_START);
         let compared = compare_many(&cases, &solver, wanted).into_iter().zip(firsts);
         for (&at, (compared, first)) in alike.iter().zip(compared) {
             outcomes[at] = compared.map_err(|_| Status::Stalled).and_then(|compared| {

@@ -28,8 +28,10 @@ const FIRST_STEPS: u32 = 8;
 /// beyond the error of a distance and far below what two different contacts have in common by chance.
 const TOGETHER: f64 = 1e-9;
 
-/// Relative change of a period over 10⁻⁷ of a window that no smooth period has: a frequency over a window from 1 to 10⁴ changes by less.
-const SMALL_CHANGE: f64 = 0.01;
+/// Relative change of a parameter over which a smooth period hardly changes, and one of two frequencies jumps; and the change of a period that
+/// counts as a jump. A period is a ratio of a frequency to small whole numbers: it changes by the first, or by a factor.
+const PERIOD_STEP: f64 = 1e-7;
+const JUMP: f64 = 0.01;
 
 /// A value at which stability changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -166,9 +168,9 @@ pub fn motion_thresholds(
 
 /// Whether the period of the dithers has no derivative in the parameter: that of two frequencies, one of which varies.
 fn period_jumps(at: &SystemAt<'_>, first: &System, (from, to): (f64, f64)) -> bool {
-    let (here, step) = (period(first), 1e-7 * (to - from));
-    let next = at(&[from + step]).ok().and_then(|next| period(&next));
-    here.is_some_and(|here| next.is_none_or(|next| (next / here - 1.0).abs() > SMALL_CHANGE))
+    let step = (PERIOD_STEP * from.abs()).copysign(to - from);
+    let (Some(here), Ok(next)) = (period(first), at(&[from + step])) else { return false };
+    period(&next).is_none_or(|next| (next / here - 1.0).abs() > JUMP)
 }
 
 fn first_state(system: &System) -> Result<Vec<f64>, NoMotionOrbit> {

@@ -41,7 +41,7 @@ pub fn follow<F: PeriodMap>(
     let mut before: MaybeSolution<F> = None;
     let mut passed_before = 0;
     let mut length = options.longest;
-    let mut passed_over = PassedObstacles::default();
+    let mut searches = ObstacleSearches::default();
     let end = loop {
         let at = run.value(here.unknowns[n]);
         let towards_end = if here.tangent[n] > 0.0 { 1.0 } else { 0.0 };
@@ -75,7 +75,7 @@ pub fn follow<F: PeriodMap>(
                     continue;
                 }
                 passed_before = passed;
-                passed_over.beyond = false;
+                searches.beyond = false;
                 if let Some(before) = before.as_ref().filter(|_| special_points.len() == passed) {
                     dips(&run, [before, &here, &next], &mut special_points);
                 }
@@ -93,7 +93,7 @@ pub fn follow<F: PeriodMap>(
                 }
             }
             StepOutcome::Over(Some(next)) => {
-                passed_over.beyond = false;
+                searches.beyond = false;
                 length = distance(&next.unknowns, &here.unknowns)
                     .clamp(10.0 * options.shortest, options.longest);
                 points.push(run.point(&next));
@@ -107,7 +107,7 @@ pub fn follow<F: PeriodMap>(
             }
             StepOutcome::Failed if length > options.shortest => length *= 0.4,
             StepOutcome::Failed => {
-                let over = over_an_obstacle(&run, &here, &mut passed_over, &mut special_points);
+                let over = over_an_obstacle(&run, &here, &mut searches, &mut special_points);
                 let Some((next, step_length)) = over else { break End::Lost { at } };
                 length = step_length;
                 points.push(run.point(&next));
@@ -119,10 +119,10 @@ pub fn follow<F: PeriodMap>(
     Ok(FixedPointBranch { points, special_points, end })
 }
 
-/// What was tried where no step follows a branch.
+/// The searches that were made where no step follows a branch.
 #[derive(Default)]
-struct PassedObstacles {
-    /// Whether the search beyond the obstacle that stopped the steps was already made.
+struct ObstacleSearches {
+    /// Whether a smoother piece and a corner were sought at the obstacle that stopped the steps.
     beyond: bool,
     kinks: usize,
     leaps: usize,
@@ -132,34 +132,33 @@ struct PassedObstacles {
 fn over_an_obstacle<F: PeriodMap>(
     run: &ContinuationRun<'_, F>,
     here: &BranchSolution<F::Signature>,
-    passed_over: &mut PassedObstacles,
+    searches: &mut ObstacleSearches,
     out: &mut Vec<SpecialPoint<F::Signature>>,
 ) -> Option<(BranchSolution<F::Signature>, f64)> {
-    passed_over.kinks += 1;
-    if let Some(joined) =
-        (passed_over.kinks <= MOST_KINKS).then(|| over_a_kink(run, here)).flatten()
-    {
+    searches.kinks += 1;
+    if let Some(joined) = (searches.kinks <= MOST_KINKS).then(|| over_a_kink(run, here)).flatten() {
         return Some(joined);
     }
-    if !std::mem::replace(&mut passed_over.beyond, true) {
+    if !std::mem::replace(&mut searches.beyond, true) {
         let smoother = run.onto_smoother_piece(here, out);
         let smoother = smoother.map(|next| (next, 100.0 * run.follow.shortest));
         if let Some(joined) = smoother.or_else(|| over_a_corner(run, here, out)) {
             return Some(joined);
         }
     }
-    passed_over.leaps += 1;
-    (passed_over.leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
+    searches.leaps += 1;
+    (searches.leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
 }
 
-/// Kinks along one branch, so that a branch that no step follows ends.
+/// Searches for a kink along one branch, so that a branch that no step follows ends; beyond, it ends there as lost.
 const MOST_KINKS: usize = 8;
 
-/// Length of the steps over a kink, over the shortest one.
+/// Length of the steps over a kink, over the shortest one, at which a branch counts as stopped: with a shorter one rounding hides the kink,
+/// with a longer one another branch could be taken for the continuation.
 const KINK_STEPS: [f64; 2] = [10.0, 100.0];
 
-/// Least cosine of the angle by which a branch turns at a kink, where it goes on in the same direction of the parameter: less could be a
-/// way back.
+/// Least cosine of the angle by which a branch turns at a kink, where it goes on in the same direction of the parameter (0.87 in the case
+/// that was met): with less, a way back was followed at a border of another kind.
 const KINK: f64 = 0.5;
 
 /// The point just beyond a kink, and the distance to it: where an event passes t = 0, the state there changes its direction, and the

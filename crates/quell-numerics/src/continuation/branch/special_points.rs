@@ -12,7 +12,8 @@ use crate::roots::{Closeness, find_root, minimise};
 const BEYOND: (f64, f64) = (1e-7, 2e-2);
 
 /// How many times further than the parameter the state may move before the first of these distances is shortened, and its least share: in
-/// a wide window the next border may be nearer than the unshortened one.
+/// a wide window the next border may be nearer than the unshortened one, and the branch is then lost or leapt over. Windows that are not
+/// wide have slopes far below the first; below the second rounding decides on which side of the border a solution is.
 const STEEP: f64 = 1e3;
 const LEAST_SHARE: f64 = 1e-4;
 
