@@ -9,9 +9,7 @@
 use quell_dynamics::motion::orbit::NoMotionOrbit;
 use quell_dynamics::orbit::NoOrbit;
 use quell_dynamics::orbit::threshold::{NoThresholds, ThresholdKind};
-use quell_linear::averaging::{
-    AveragingError, AveragingOptions, DitheredSystem, NoAverage, critical_amplitudes,
-};
+use quell_linear::averaging::{Averaging, AveragingError, DitheredSystem, critical_amplitudes};
 use quell_linear::linear_cost::linear_cost;
 use quell_model::profile::{Profile, Wave};
 use quell_model::{Belt, Direction, Dither, System};
@@ -32,11 +30,11 @@ const SHARE_OF_LOAD: f64 = 1.0 - 1e-9;
 
 /// The verdict on the base response over the amplitude of a dither, from zero to a limit.
 #[derive(Clone, Debug)]
-pub struct Quench<E> {
+pub struct Quench {
     /// The base response.
     pub branch: AmplitudeBranch,
     /// The amplitudes that are quiet by finite-R averaging, or why averaging has no value.
-    pub averaged: Result<QuietAmplitudes, E>,
+    pub averaged: Result<QuietAmplitudes, AveragingError>,
 }
 
 /// Why there is no quench amplitude.
@@ -52,7 +50,7 @@ pub enum NotQuenched {
 
 /// Why the base response could not be followed.
 #[derive(Clone, Debug, PartialEq)]
-pub enum NoQuench<E> {
+pub enum NoQuench {
     /// There is no dither.
     NoDither,
     /// The dither moves no contact.
@@ -64,10 +62,10 @@ pub enum NoQuench<E> {
     /// The engine stopped.
     Stalled,
     /// The limit has no value, because averaging has none.
-    Averaging(E),
+    Averaging(AveragingError),
 }
 
-impl<E> Quench<E> {
+impl Quench {
     /// The least amplitude from which the base response is stable.
     ///
     /// # Errors
@@ -101,7 +99,7 @@ impl<E> Quench<E> {
     ///
     /// # Errors
     /// [`NotQuenched`], or why averaging has no value.
-    pub fn averaged(&self) -> Result<Result<f64, NotQuenched>, &E> {
+    pub fn averaged(&self) -> Result<Result<f64, NotQuenched>, &AveragingError> {
         let quiet = self.averaged.as_ref()?;
         Ok(match quiet.intervals().first() {
             Some((0.0, _)) => Err(NotQuenched::QuietWithout),
@@ -131,7 +129,7 @@ pub fn quench_kind(kind: ThresholdKind) -> usize {
 ///
 /// # Errors
 /// [`NoQuench`].
-pub fn quench_of_belt(belt: &Belt) -> Result<Quench<AveragingError>, NoQuench<AveragingError>> {
+pub fn quench_of_belt(belt: &Belt) -> Result<Quench, NoQuench> {
     let first = belt.dithers().first().ok_or(NoQuench::NoDither)?;
     if belt.belt_velocity() == 0.0 {
         return Err(NoQuench::NoSteadySliding);
@@ -162,7 +160,7 @@ pub fn quench_of_belt(belt: &Belt) -> Result<Quench<AveragingError>, NoQuench<Av
 }
 
 /// The largest amplitude of a belt's first dither that is followed.
-fn limit_of_belt(belt: &Belt, first: &Dither) -> Result<f64, NoQuench<AveragingError>> {
+fn limit_of_belt(belt: &Belt, first: &Dither) -> Result<f64, NoQuench> {
     if first.direction == Direction::Normal {
         let free = belt.normal_load() - belt.total_amplitude(Direction::Normal);
         let lift = -first.waveform.range().0;
@@ -172,7 +170,7 @@ fn limit_of_belt(belt: &Belt, first: &Dither) -> Result<f64, NoQuench<AveragingE
     let response =
         linear_cost(&unit, belt.damping_ratio()).map_err(|_| NoQuench::NoBaseResponse)?;
     let corner = belt.belt_velocity().abs() / response.velocity;
-    let averaged = critical_amplitudes(belt, AveragingOptions::FINITE_R).unwrap_or_default();
+    let averaged = critical_amplitudes(belt, Averaging::FiniteR).unwrap_or_default();
     let last = averaged.iter().map(|critical| critical.amplitude).fold(0.0, f64::max);
     let limit = BEYOND * corner.max(last);
     if limit.is_finite() { Ok(limit) } else { Err(NoQuench::NoReach) }
@@ -182,10 +180,7 @@ fn limit_of_belt(belt: &Belt, first: &Dither) -> Result<f64, NoQuench<AveragingE
 ///
 /// # Errors
 /// [`NoQuench`].
-pub fn quench_of_system(
-    system: &System,
-    input: usize,
-) -> Result<Quench<NoAverage>, NoQuench<NoAverage>> {
+pub fn quench_of_system(system: &System, input: usize) -> Result<Quench, NoQuench> {
     if system.inputs.get(input).is_none_or(|input| input.profile.waves().is_empty()) {
         return Err(NoQuench::NoDither);
     }
@@ -198,7 +193,7 @@ pub fn quench_of_system(
 }
 
 /// Why a system has no branch over the amplitude.
-fn no_branch<E>(why: &NoMotionOrbit) -> NoQuench<E> {
+fn no_branch(why: &NoMotionOrbit) -> NoQuench {
     match why {
         NoMotionOrbit::NoSliding(_) => NoQuench::NoSteadySliding,
         NoMotionOrbit::Immobile(_) => NoQuench::Stalled,
@@ -206,9 +201,9 @@ fn no_branch<E>(why: &NoMotionOrbit) -> NoQuench<E> {
     }
 }
 
-fn limit_of_system(system: &System, input: usize) -> Result<f64, NoQuench<NoAverage>> {
-    let no_average = |why: NoAverage| match why {
-        NoAverage::NoSteadySliding(_) => NoQuench::NoSteadySliding,
+fn limit_of_system(system: &System, input: usize) -> Result<f64, NoQuench> {
+    let no_average = |why: AveragingError| match why {
+        AveragingError::NoSteadySliding(_) => NoQuench::NoSteadySliding,
         why => NoQuench::Averaging(why),
     };
     let prepared = DitheredSystem::new(system).map_err(no_average)?;

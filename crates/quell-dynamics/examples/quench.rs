@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use quell_dynamics::orbit::threshold::local;
 use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::Start;
-use quell_linear::averaging::{AveragingOptions, critical_amplitudes};
+use quell_linear::averaging::{Averaging, critical_amplitudes};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 
 /// The answer as text.
@@ -30,7 +30,7 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
         Belt::new(0.005, 1.0, 0.05, law, vec![dither]).map_err(|wrong| format!("{wrong:?}"))?;
 
     let mut text = String::new();
-    for change in critical_amplitudes(&belt, AveragingOptions::default())? {
+    for change in critical_amplitudes(&belt, Averaging::Limit)? {
         writeln!(text, "averaging: {:?} from D = {:.4}", change.becomes, change.amplitude)?;
     }
     let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();

@@ -7,8 +7,8 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use quell_dynamics::orbit::threshold::{ThresholdKind, local_thresholds};
 use quell_linear::averaging::{
-    AveragingOptions, Becomes, EverywhereStable, FastMotion, FastWave, NormalOrder, closed_band,
-    critical_amplitudes, effective, effective_by_quadrature, everywhere_stable_amplitude,
+    Averaging, Becomes, EverywhereStable, FastMotion, FastWave, closed_band, critical_amplitudes,
+    effective, effective_by_quadrature, everywhere_stable_amplitude,
 };
 use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
@@ -203,7 +203,7 @@ fn sign_of_the_fast_motion() {
         let mean = |theta: f64| law.coefficient(0.3 + sign * fast(theta)) / TAU;
         integrate(mean, 0.0, TAU, &[PI], &QuadratureOptions::default()).expect("converges").value
     };
-    let motion = FastMotion::of(&belt, 0.3, AveragingOptions::default()).expect("a motion");
+    let motion = FastMotion::of(&belt, 0.3, Averaging::Limit).expect("a motion");
     let found = effective(&law, &motion, 0.3).expect("a value").coefficient;
     close(found, average(-1.0), 1e-12);
     assert!((average(1.0) / average(-1.0) - 1.0).abs() > 1e-3, "the printed sign is seen");
@@ -388,9 +388,10 @@ fn limit_of_high_frequency_under_normal_dither() {
 fn fast_motion_stays_frozen_in_the_slope() {
     let (law, v, exact) = (dissertation(LawKind::Decreasing), 0.075, 0.115_322);
     let belt = belt(0.2, v, &law, vec![normal(Waveform::Square, 0.1, 40.0)]);
-    for (normal_order, known) in [(NormalOrder::First, 0.115_719), (NormalOrder::Second, 0.115_518)]
+    for (normal_order, known) in
+        [(Averaging::Limit, 0.115_719), (Averaging::LimitToSecondOrder, 0.115_518)]
     {
-        let options = AveragingOptions { normal_order, ..AveragingOptions::default() };
+        let options = normal_order;
         let found = critical_amplitudes(&belt, options).expect("found");
         let nearest = found
             .iter()
@@ -422,7 +423,7 @@ fn fast_motion_stays_frozen_in_the_slope() {
 #[test]
 fn quench_amplitude_is_a_jump() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
-    let found = critical_amplitudes(&belt, AveragingOptions::default()).expect("found");
+    let found = critical_amplitudes(&belt, Averaging::Limit).expect("found");
     assert_eq!((found[1].amplitude_ratio, found[1].becomes), (1.0, Becomes::Stable));
     let (_, slope) = right(LawKind::Decreasing, Waveform::Sine, 1.0, 0.98);
     close(0.01 + slope, -0.0859403, 1e-5);

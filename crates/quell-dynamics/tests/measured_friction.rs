@@ -7,7 +7,7 @@ use quell_dynamics::response::{
     SteadyFriction, measured_effective_friction, steady_effective_friction,
 };
 use quell_dynamics::simulation::{Sampler, Start, simulate};
-use quell_linear::averaging::{AveragingOptions, FastMotion, effective};
+use quell_linear::averaging::{Averaging, FastMotion, effective};
 use quell_model::waveform::{Burst, Hold, SampledWave};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use quell_zoo as zoo;
@@ -142,7 +142,7 @@ fn limits_of_the_steady_friction() {
     let errors = [10.0, 20.0, 40.0].map(|ratio| {
         let dithers = vec![tangential(Waveform::Sine, 0.1 * ratio, ratio)];
         let belt = zoo::belt::belt(0.005, 0.02, zoo::law::decreasing(), dithers);
-        let motion = FastMotion::of(&belt, 0.25, AveragingOptions::default()).expect("a motion");
+        let motion = FastMotion::of(&belt, 0.25, Averaging::Limit).expect("a motion");
         let averaged = effective(belt.friction(), &motion, 0.25).expect("an average");
         (steady(&belt, 0.25).coefficient - averaged.coefficient).abs()
     });
@@ -173,7 +173,7 @@ fn friction_of_a_waveform_without_symmetry_depends_on_the_direction() {
     let measured =
         |v: f64| steady_effective_friction(&belt, v, 1e-12).expect("a response").coefficient;
     let averaged = |v: f64| {
-        let motion = FastMotion::of(&belt, v, AveragingOptions::default()).expect("a motion");
+        let motion = FastMotion::of(&belt, v, Averaging::Limit).expect("a motion");
         effective(belt.friction(), &motion, v).expect("an average").coefficient
     };
     let (forwards, backwards) = (averaged(0.03), averaged(-0.03));

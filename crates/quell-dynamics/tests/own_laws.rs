@@ -6,7 +6,7 @@ use quell_dynamics::simulation::{
     simulate_many_with,
 };
 use quell_linear::averaging::{
-    AveragingOptions, CriticalVelocity, FastMotion, FastWave, closed_band, criterion, effective,
+    Averaging, CriticalVelocity, FastMotion, FastWave, closed_band, criterion, effective,
     effective_by_quadrature, everywhere_stable_amplitude, undithered_critical_velocity,
 };
 use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Samples, Waveform};
@@ -75,8 +75,7 @@ fn a_formula_has_the_averages_and_thresholds_of_the_equivalent_law() {
                 let (known, found) =
                     (belt(&built_in, 0.05, dithers.clone()), belt(&custom, 0.05, dithers));
                 let mean = |belt: &Belt| {
-                    let motion =
-                        FastMotion::of(belt, v, AveragingOptions::default()).expect("fast");
+                    let motion = FastMotion::of(belt, v, Averaging::Limit).expect("fast");
                     effective(belt.friction(), &motion, v).expect("a mean")
                 };
                 let (known, found) = (mean(&known), mean(&found));
@@ -97,9 +96,7 @@ fn a_formula_has_the_averages_and_thresholds_of_the_equivalent_law() {
         assert!((edge(&built_in) - edge(&custom)).abs() < 1e-10);
         let normal = vec![dither(Direction::Normal, Waveform::Sine, 0.5)];
         let value = |law: &Friction| {
-            criterion(&belt(law, 0.12, normal.clone()), AveragingOptions::default())
-                .expect("a mean")
-                .value
+            criterion(&belt(law, 0.12, normal.clone()), Averaging::Limit).expect("a mean").value
         };
         assert!((value(&built_in) - value(&custom)).abs() < 1e-10);
     }

@@ -10,9 +10,7 @@ use quell_dynamics::orbit::threshold::{NoThresholds, along, local, local_thresho
 use quell_dynamics::orbit::{NoOrbit, Orbit, Unsettled, common_period, from_sliding, near};
 use quell_dynamics::simulation::{Start, simulate, within};
 use quell_dynamics::start::{InitialState, NoSquealingStart};
-use quell_linear::averaging::{
-    AveragingError, AveragingOptions, FastResponse, NoBand, closed_band, criterion,
-};
+use quell_linear::averaging::{Averaging, AveragingError, NoBand, closed_band, criterion};
 use quell_model::{Belt, Waveform};
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 use quell_zoo::belt::{
@@ -198,7 +196,7 @@ fn curves_of_thresholds() {
 
 #[test]
 fn averages() {
-    let options = AveragingOptions::default();
+    let options = Averaging::Limit;
     let constant = law::coulomb(0.3, 0.3);
     let why = closed_band(&constant, 0.1, 1.0, &Waveform::Sine, 0.1).expect_err("no band");
     assert_eq!(why, NoBand::Stable);
@@ -214,7 +212,7 @@ fn averages() {
     assert_eq!(why, AveragingError::TooManyGroups { groups: 5, largest: 3 });
     assert_states(&why, &["5", "3"]);
     let slow = belt::stribeck().with_dither(sine(0.1, 0.75));
-    let oscillator = AveragingOptions { response: FastResponse::Oscillator, ..options };
+    let oscillator = Averaging::FiniteR;
     let why = criterion(&slow, oscillator).expect_err("below resonance");
     assert_eq!(why, AveragingError::NotFast { frequency_ratio: 0.75 });
     assert_states(&why, &["0.75"]);

@@ -168,10 +168,9 @@ impl Linearised {
     /// # Errors
     /// [`NoSteadySliding::NoMass`].
     pub fn frictionless(system: &System) -> Result<Self, NoSteadySliding> {
-        let none =
-            FrictionLine { coefficient: 0.0, constant: 0.0, slope: 0.0, slope_constant: 0.0 };
         let position = vec![0.0; system.structure.size()];
-        let at_rest = SteadySliding::at(system, position, &vec![none; system.contacts.len()]);
+        let none = vec![FrictionLine::NONE; system.contacts.len()];
+        let at_rest = SteadySliding::at(system, position, &none);
         Self::about(system, at_rest)
     }
 

@@ -80,6 +80,8 @@ pub struct FrictionLine {
     pub slope: f64,
     /// r′.
     pub slope_constant: f64,
+    /// Whether the slopes are those of slightly faster slip alone: the fast slip just reaches the slow one.
+    pub one_sided: bool,
 }
 
 impl FrictionLine {
@@ -102,8 +104,13 @@ impl FrictionLine {
             constant: 0.0,
             slope: contact.friction.slope(velocity.abs()),
             slope_constant: 0.0,
+            one_sided: false,
         })
     }
+
+    /// That of no friction: of a contact whose surface is at rest under fast slip, by symmetry.
+    pub const NONE: Self =
+        Self { coefficient: 0.0, constant: 0.0, slope: 0.0, slope_constant: 0.0, one_sided: false };
 }
 
 /// A contact in steady sliding.

@@ -1,8 +1,8 @@
 //! Averaging against the stored reference, every row (tolerances in `reference/README.md`).
 
 use quell_linear::averaging::{
-    AveragedVerdict, AveragingOptions, Becomes, CrossingKind, FastMotion, FastWave, NormalOrder,
-    SlopeSide, criterion, critical_amplitudes, effective,
+    AveragedVerdict, Averaging, Becomes, CrossingKind, FastMotion, FastWave, SlopeSide, criterion,
+    critical_amplitudes, effective,
 };
 use quell_model::{Belt, Friction, LawKind, Waveform};
 use quell_zoo::belt::{DAMPING_RATIO, belt};
@@ -78,12 +78,14 @@ fn normal_rows() {
         let v = number(row, "vr_over_vm") * VM;
         let dither = normal(waveform(row), number(row, "DN"), number(row, "RN"));
         let belt = belt(DAMPING_RATIO, v, law(row), vec![dither]);
-        for (i, (order, key)) in
-            [(NormalOrder::First, "mubar_first_order"), (NormalOrder::Second, "mubar_with_cos2")]
-                .into_iter()
-                .enumerate()
+        for (i, (order, key)) in [
+            (Averaging::Limit, "mubar_first_order"),
+            (Averaging::LimitToSecondOrder, "mubar_with_cos2"),
+        ]
+        .into_iter()
+        .enumerate()
         {
-            let options = AveragingOptions { normal_order: order, ..AveragingOptions::default() };
+            let options = order;
             let motion = FastMotion::of(&belt, v, options).expect("one dither");
             let found = effective(belt.friction(), &motion, v).expect("a value");
             let e = error(found.coefficient, number(row, key));
@@ -104,7 +106,7 @@ fn stability_rows() {
         let dither = tangential(waveform(row), 1.0, r);
         let (zeta, load, v) = (number(row, "zeta"), number(row, "F"), number(row, "v0"));
         let belt = Belt::new(zeta, load, v, law(row), vec![dither]).expect("valid");
-        let options = AveragingOptions::default();
+        let options = Averaging::Limit;
         let undithered = criterion(&belt.undithered(), options).expect("slides").verdict;
         let stable = row["undithered_stable"].as_bool().expect("a flag");
         assert_eq!(

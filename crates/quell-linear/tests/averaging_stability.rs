@@ -3,10 +3,9 @@
 use core::f64::consts::PI;
 
 use quell_linear::averaging::{
-    AveragedVerdict, AveragingError, AveragingOptions, Becomes, CriticalVelocity, CrossingKind,
-    EverywhereStable, FastResponse, FastWave, NeverStable, NormalOrder, UndecidedBecause,
-    closed_band, criterion, critical_amplitudes, everywhere_stable_amplitude,
-    undithered_critical_velocity, unstable_bands,
+    AveragedVerdict, Averaging, AveragingError, Becomes, CriticalVelocity, CrossingKind,
+    EverywhereStable, FastWave, NeverStable, UndecidedBecause, closed_band, criterion,
+    critical_amplitudes, everywhere_stable_amplitude, undithered_critical_velocity, unstable_bands,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 use quell_zoo::BeltExt;
@@ -39,7 +38,7 @@ fn undithered_thresholds() {
         };
         close(v, exact, 3e-12);
         let criterion = |v0: f64| {
-            criterion(&belt(zeta, v0, dissertation(kind), vec![]), AveragingOptions::default())
+            criterion(&belt(zeta, v0, dissertation(kind), vec![]), Averaging::Limit)
                 .expect("slides")
         };
         assert_eq!(criterion(v * (1.0 - 1e-9)).verdict, AveragedVerdict::Unstable);
@@ -66,7 +65,7 @@ fn roots_against_closed_forms() {
                     let v0 = 0.05 * f64::from(k);
                     let dithers = vec![dither(Direction::Tangential, waveform.clone(), 0.0, 10.0)];
                     let belt = belt(zeta, v0, dissertation(*kind), dithers);
-                    let found = critical_amplitudes(&belt, AveragingOptions::default());
+                    let found = critical_amplitudes(&belt, Averaging::Limit);
                     for critical in found.expect("found") {
                         let alpha = critical.amplitude_ratio;
                         if critical.crossing == CrossingKind::Jump {
@@ -102,7 +101,7 @@ fn only_laws_without_any_slope_have_no_unstable_band() {
     for (law, bands) in [(named, 1), (falling, 1), (formula("0.3"), 0)] {
         let sine = dither(Direction::Tangential, Waveform::Sine, 6.0, 10.0);
         let belt = belt(0.0, 1.0, &law, vec![sine]);
-        let found = unstable_bands(&belt, AveragingOptions::default()).expect("ok");
+        let found = unstable_bands(&belt, Averaging::Limit).expect("ok");
         assert_eq!(found.len(), bands, "{law:?} {found:?}");
         for band in found {
             assert!((band.lower - 0.6).abs() < 1e-9 && band.upper.is_none(), "{band:?}");
@@ -122,7 +121,7 @@ fn bands() {
                     let dithers =
                         vec![dither(Direction::Tangential, waveform.clone(), 10.0 * alpha, 10.0)];
                     let dithered = belt(zeta, 1.0, &law, dithers);
-                    let found = unstable_bands(&dithered, AveragingOptions::default()).expect("ok");
+                    let found = unstable_bands(&dithered, Averaging::Limit).expect("ok");
                     let closed = closed_band(&law, zeta, 1.0, waveform, alpha);
                     assert_eq!(found.len(), usize::from(closed.is_ok()), "{found:?} {closed:?}");
                     if let (Some(found), Ok(closed)) = (found.first(), closed) {
@@ -134,8 +133,7 @@ fn bands() {
                     let dithers =
                         vec![dither(Direction::Normal, waveform.clone(), 2.0 * alpha, 2.0)];
                     let dithered = belt(zeta, 1.0, &law, dithers);
-                    for band in unstable_bands(&dithered, AveragingOptions::default()).expect("ok")
-                    {
+                    for band in unstable_bands(&dithered, Averaging::Limit).expect("ok") {
                         normal += 1;
                         let level = |v: f64| law.coefficient(v) * alpha;
                         let reach = level(band.lower) * waveform.peak_integral();
@@ -238,19 +236,23 @@ fn steep_laws_are_searched_beyond_the_tip() {
 }
 
 /// Just above α^L no belt velocity is unstable, and just below it the tip is; also for the
-/// oscillator's response and for normal dither.
+/// oscillator's response and for normal dither in the limit.
 #[test]
 fn everywhere_stable_closes_the_band() {
     for kind in &CLOSED {
         for waveform in Waveform::NAMED {
             for &direction in Direction::ALL {
-                for response in [FastResponse::Limit, FastResponse::Oscillator] {
+                for response in [Averaging::Limit, Averaging::FiniteR] {
+                    // α^L has normal dither to first order, finite-R bands to second.
+                    if response == Averaging::FiniteR && direction == Direction::Normal {
+                        continue;
+                    }
                     let (zeta, r) = (0.08, 1.2);
                     let wave = match response {
-                        FastResponse::Limit => FastWave::Integral(waveform.clone()),
-                        FastResponse::Oscillator => {
+                        Averaging::FiniteR => {
                             FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio: r }
                         }
+                        _ => FastWave::Integral(waveform.clone()),
                     };
                     let law = dissertation(*kind);
                     let alpha =
@@ -260,8 +262,7 @@ fn everywhere_stable_closes_the_band() {
                         // A heavy load keeps the contact closed; F enters the criterion with ζ.
                         let belt =
                             Belt::new(4.0 * zeta, 4.0, 1.0, law.clone(), dithers).expect("valid");
-                        unstable_bands(&belt, AveragingOptions { response, ..Default::default() })
-                            .expect("ok")
+                        unstable_bands(&belt, response).expect("ok")
                     };
                     assert!(
                         bands(alpha * (1.0 + 1e-6)).is_empty(),
@@ -288,7 +289,7 @@ fn inner_region_may_be_unstable() {
             let law = build(LawKind::Stribeck, &[1.0, 1.0 - fall, 0.2]);
             let dithers = vec![dither(Direction::Tangential, waveform.clone(), 1.0, 10.0)];
             let belt = belt(0.0, 1e-7, &law, dithers);
-            let found = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
+            let found = critical_amplitudes(&belt, Averaging::Limit).expect("ok");
             // One jump at the corner, and two roots where the inner criterion dips below zero.
             assert_eq!(found.len(), if dips { 3 } else { 1 }, "{waveform:?} {fall} {found:?}");
             if dips {
@@ -304,7 +305,7 @@ fn inner_region_may_be_unstable() {
     }
     let deep = build(LawKind::Stribeck, &[1.0, 0.0, 0.2]);
     let dithers = vec![dither(Direction::Tangential, Waveform::Square, 1.0, 10.0)];
-    let found = critical_amplitudes(&belt(0.0, 1e-4, deep, dithers), AveragingOptions::default());
+    let found = critical_amplitudes(&belt(0.0, 1e-4, deep, dithers), Averaging::Limit);
     assert_eq!(found.expect("ok").len(), 1);
 }
 
@@ -312,14 +313,14 @@ fn inner_region_may_be_unstable() {
 #[test]
 fn finite_r_thresholds() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
-    let finite_r = AveragingOptions { response: FastResponse::Oscillator, ..Default::default() };
+    let finite_r = Averaging::FiniteR;
     let found = critical_amplitudes(&belt, finite_r).expect("ok");
     assert_eq!(found.len(), 2);
     // Exact (Floquet): 4.322392624 and 9.900214849; plain averaging 4.366 and 10.
     close(found[0].amplitude, 4.322392, 1e-7);
     close(found[0].amplitude, 4.322392624, 2e-7);
     close(found[1].amplitude, 9.9, 1e-14);
-    let plain = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
+    let plain = critical_amplitudes(&belt, Averaging::Limit).expect("ok");
     close(plain[0].amplitude, 4.36605249129233293, 1e-13);
     close(plain[1].amplitude, 10.0, 1e-15);
     // Square: exact 3.295664190 and 6.313857946.
@@ -327,7 +328,7 @@ fn finite_r_thresholds() {
     let found = critical_amplitudes(&belt, finite_r).expect("ok");
     close(found[0].amplitude, 3.295664190, 1e-6);
     close(found[1].amplitude, 6.313857946, 1e-3);
-    let plain = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
+    let plain = critical_amplitudes(&belt, Averaging::Limit).expect("ok");
     assert!((plain[0].amplitude - 3.295664190).abs() > 0.02);
 }
 
@@ -342,11 +343,8 @@ fn normal_dither() {
     ] {
         let belt =
             belt(0.2, 0.075, &law, vec![dither(Direction::Normal, waveform.clone(), 0.5, 5.0)]);
-        let critical = |normal_order: NormalOrder| {
-            let options = AveragingOptions { normal_order, ..Default::default() };
-            critical_amplitudes(&belt, options).expect("ok")
-        };
-        let one = critical(NormalOrder::First);
+        let critical = |averaging| critical_amplitudes(&belt, averaging).expect("ok");
+        let one = critical(Averaging::Limit);
         assert_eq!(one.len(), 2, "{one:?}");
         assert!((one[0].amplitude_ratio - first).abs() < 6e-7, "{one:?}");
         assert_eq!((one[0].crossing, one[0].becomes), (CrossingKind::Root, Becomes::Unstable));
@@ -359,7 +357,7 @@ fn normal_dither() {
         assert_eq!(last.crossing, CrossingKind::Jump);
         // D_N = 0.655 for the square, but 1.03 > F for the sine, whose jump lies at α_N = 0.206.
         assert_eq!(last.contact_stays_closed, waveform == Waveform::Square);
-        let two = critical(NormalOrder::Second);
+        let two = critical(Averaging::LimitToSecondOrder);
         assert_eq!(two.len(), 2, "{two:?}");
         assert!((two[0].amplitude_ratio - second).abs() < 6e-7, "{two:?}");
         assert!((two[0].amplitude_ratio - exact).abs() < (first - exact));
@@ -372,7 +370,7 @@ fn normal_dither() {
             let of = |direction| {
                 let belt =
                     belt(0.05, v0, &law, vec![dither(direction, Waveform::Triangle, 0.1, 3.0)]);
-                critical_amplitudes(&belt, AveragingOptions::default()).expect("ok")
+                critical_amplitudes(&belt, Averaging::Limit).expect("ok")
             };
             let (tangential, normal) = (of(Direction::Tangential), of(Direction::Normal));
             assert_eq!(tangential.len(), normal.len());
@@ -393,9 +391,7 @@ fn lengths_scale_out() {
             for v0 in [0.1, 0.5, 1.0] {
                 let dithers = vec![dither(Direction::Tangential, waveform.clone(), 0.1, 10.0)];
                 let belt = belt(0.005, v0, dissertation(*kind), dithers);
-                let found = |belt: &Belt| {
-                    critical_amplitudes(belt, AveragingOptions::default()).expect("ok")
-                };
+                let found = |belt: &Belt| critical_amplitudes(belt, Averaging::Limit).expect("ok");
                 let (one, small) = (found(&belt), found(&belt.scaled(scale)));
                 assert_eq!(one.len(), small.len());
                 for (one, small) in one.iter().zip(&small) {
@@ -416,16 +412,16 @@ fn limits() {
             for v0 in [0.01, 0.3, 2.0] {
                 let dithers = vec![dither(Direction::Tangential, waveform.clone(), 1.0, 10.0)];
                 let belt = belt(0.01, v0, &coulomb, dithers);
-                let options = AveragingOptions::default();
+                let options = Averaging::Limit;
                 assert_eq!(criterion(&belt, options).expect("ok").verdict, AveragedVerdict::Stable);
                 assert!(critical_amplitudes(&belt, options).expect("ok").is_empty());
                 assert!(unstable_bands(&belt, options).expect("ok").is_empty());
             }
         }
-        let rest = criterion(&belt(0.01, 0.0, &coulomb, vec![]), AveragingOptions::default());
+        let rest = criterion(&belt(0.01, 0.0, &coulomb, vec![]), Averaging::Limit);
         assert_eq!(rest, Err(AveragingError::SetValued { static_coefficient: 0.4 }));
         // Without damping and slope the criterion is zero, and undecided.
-        let neutral = criterion(&belt(0.0, 1.0, &coulomb, vec![]), AveragingOptions::default());
+        let neutral = criterion(&belt(0.0, 1.0, &coulomb, vec![]), Averaging::Limit);
         assert_eq!(
             neutral.expect("slides").verdict,
             AveragedVerdict::Undecided { why: UndecidedBecause::WithinError }
@@ -436,10 +432,10 @@ fn limits() {
         let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0)];
         let belt = belt(0.005, 0.0, dissertation(*kind), dithers);
         assert_eq!(
-            criterion(&belt, AveragingOptions::default()).expect("dithered").verdict,
+            criterion(&belt, Averaging::Limit).expect("dithered").verdict,
             AveragedVerdict::Stable
         );
-        assert!(critical_amplitudes(&belt, AveragingOptions::default()).expect("ok").is_empty());
+        assert!(critical_amplitudes(&belt, Averaging::Limit).expect("ok").is_empty());
     }
 }
 
@@ -448,8 +444,7 @@ fn limits() {
 fn verdict_at_the_corner() {
     let verdict = |kind: LawKind, v0: f64| {
         let dithers = vec![dither(Direction::Tangential, Waveform::Sine, 10.0 * v0, 10.0)];
-        criterion(&belt(0.005, v0, dissertation(kind), dithers), AveragingOptions::default())
-            .expect("ok")
+        criterion(&belt(0.005, v0, dissertation(kind), dithers), Averaging::Limit).expect("ok")
     };
     let disagree = verdict(LawKind::Decreasing, 0.5);
     assert_eq!(disagree.verdict, AveragedVerdict::Undecided { why: UndecidedBecause::AtCorner });
@@ -461,7 +456,7 @@ fn verdict_at_the_corner() {
 #[test]
 fn several_dithers() {
     let first = dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0);
-    let options = AveragingOptions::default();
+    let options = Averaging::Limit;
     // The same wave twice: criticals of the first are lower by the second's α.
     let second = Dither { amplitude: 0.3, ..first.clone() };
     let law = dissertation(LawKind::Decreasing);

@@ -1,8 +1,8 @@
 //! Averaging over a wide grid: stored 40-digit values, closed form against quadrature, limits and symmetries.
 
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, FastMotion, FastResponse, FastWave, PeriodicMotion, SlipTerm,
-    SlopeSide, effective, effective_by_quadrature,
+    Averaging, AveragingError, FastMotion, FastWave, PeriodicMotion, SlipTerm, SlopeSide,
+    effective, effective_by_quadrature,
 };
 use quell_model::{Direction, Friction, LawKind, Waveform};
 use quell_zoo::belt::belt;
@@ -339,7 +339,7 @@ fn motion_of_a_belt() {
     };
     let belt = |dithers| belt(0.01, 0.3, &laws()[0], dithers);
     let (t, n) = (Direction::Tangential, Direction::Normal);
-    let options = AveragingOptions::default();
+    let options = Averaging::Limit;
     let motion = |dithers| FastMotion::of(&belt(dithers), 0.3, options).expect("ok");
     assert_eq!(motion(vec![dither(t, 10.0, 0.0)]), FastMotion::default());
     assert_eq!(motion(vec![dither(t, 10.0, 0.5), dither(n, 20.0, 0.5)]).groups().len(), 1);
@@ -351,10 +351,6 @@ fn motion_of_a_belt() {
     let both = motion(vec![dither(t, 10.0, 4.0), dither(n, 10.0, 0.5)]);
     let tangential = effective(&laws()[0], &plain(Waveform::Triangle, 0.4), 0.3).expect("ok");
     assert!(relative(both.groups()[0].normal[0].amplitude, 0.05 * tangential.coefficient) < 1e-14);
-    let slow = FastMotion::of(
-        &belt(vec![dither(t, 0.9, 0.5)]),
-        0.3,
-        AveragingOptions { response: FastResponse::Oscillator, ..options },
-    );
+    let slow = FastMotion::of(&belt(vec![dither(t, 0.9, 0.5)]), 0.3, Averaging::FiniteR);
     assert_eq!(slow, Err(AveragingError::NotFast { frequency_ratio: 0.9 }));
 }

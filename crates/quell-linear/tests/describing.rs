@@ -3,8 +3,7 @@
 use core::f64::consts::PI;
 
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, DescribingFunction, FastMotion, FastWave, criterion,
-    effective,
+    Averaging, AveragingError, DescribingFunction, FastMotion, FastWave, criterion, effective,
 };
 use quell_model::waveform::Burst;
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
@@ -15,7 +14,7 @@ use quell_zoo::dither::{normal, tangential};
 use quell_zoo::law;
 
 fn of(belt: &Belt) -> DescribingFunction {
-    DescribingFunction::of_belt(belt, AveragingOptions::default()).expect("an average")
+    DescribingFunction::of_belt(belt, Averaging::Limit).expect("an average")
 }
 
 /// The cubic law without dither: N₁ = a₁ + 3a₃v₀² + ¾a₃a², and 4μ_s√(1 − (v₀/a)²)/(πa) for the sign where a > v₀.
@@ -97,7 +96,7 @@ fn dithered() -> Vec<Belt> {
 fn small_amplitudes() {
     for belt in dithered() {
         let found = of(&belt);
-        let criterion = criterion(&belt, AveragingOptions::default()).expect("a criterion");
+        let criterion = criterion(&belt, Averaging::Limit).expect("a criterion");
         let small = found.small().expect("a slope").expect("no corner");
         assert_eq!(belt.damping_rate(small, belt.normal_load()), criterion.value);
         let point = found.at(1e-4).expect("a gain");
@@ -117,7 +116,7 @@ fn gain_from_the_slopes() {
         let wave = FastWave::Integral(dither.waveform.clone());
         let (low, high) = dither.waveform.integral_range();
         let alpha = dither.amplitude_ratio();
-        let motion = FastMotion::of(&belt, 0.1, AveragingOptions::default()).expect("a motion");
+        let motion = FastMotion::of(&belt, 0.1, Averaging::Limit).expect("a motion");
         let single = FastMotion::single(wave, alpha);
         for amplitude in [0.01, 0.08, 0.2, 0.4] {
             // In the pause of a burst the fast velocity is constant, and the averaged law jumps at that velocity.
@@ -170,7 +169,7 @@ fn order_of_the_averages() {
     let belt = belt(0.01, 0.1, law::stribeck(), vec![dither]);
     for amplitude in [0.03, 0.07, 0.3] {
         let both = belt.with_dither(tangential(Waveform::Sine, 3.7 * amplitude * PI, 3.7 * PI));
-        let motion = FastMotion::of(&both, 0.1, AveragingOptions::default()).expect("a motion");
+        let motion = FastMotion::of(&both, 0.1, Averaging::Limit).expect("a motion");
         let mean = effective(both.friction(), &motion, 0.1).expect("a mean").coefficient;
         let point = of(&belt).at(amplitude).expect("a gain");
         assert!((point.coefficient - mean).abs() < 1e-9, "{point:?} {mean}");
@@ -197,6 +196,6 @@ fn undefined_and_refused() {
         envelope: None,
     });
     let three = belt(0.005, 0.1, law::stribeck(), three.to_vec());
-    let refused = DescribingFunction::of_belt(&three, AveragingOptions::default());
+    let refused = DescribingFunction::of_belt(&three, Averaging::Limit);
     assert!(matches!(refused, Err(AveragingError::TooManyGroups { groups: 3, largest: 2 })));
 }

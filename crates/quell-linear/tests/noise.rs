@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, CrossingKind, DitheredSystem, FastMotion, criterion,
+    Averaging, AveragingError, CrossingKind, DitheredSystem, FastMotion, criterion,
     critical_amplitudes, effective, effective_under_noise_by_quadrature, unstable_bands,
 };
 use quell_linear::harmonic::response;
@@ -155,16 +155,16 @@ fn the_variance_is_the_sum_over_the_lines() {
         };
         lines.iter().map(square).sum::<f64>().sqrt()
     };
-    let limit = FastMotion::of(&noisy, 0.1, AveragingOptions::default()).expect("a motion");
+    let limit = FastMotion::of(&noisy, 0.1, Averaging::Limit).expect("a motion");
     assert!((limit.noise() / sum(|_| 1.0) - 1.0).abs() < 1e-14);
-    let finite = FastMotion::of(&noisy, 0.1, AveragingOptions::FINITE_R).expect("a motion");
+    let finite = FastMotion::of(&noisy, 0.1, Averaging::FiniteR).expect("a motion");
     assert!((finite.noise() / sum(|r| r * r / (r * r - 1.0)) - 1.0).abs() < 1e-14);
     // Normal noise moves the mass through friction, to first order.
     let normal = belt(coulomb(), 0.1, vec![dither(Direction::Normal, 0.1, 32)]);
     let of = |options| FastMotion::of(&normal, 0.1, options);
-    let driven = of(AveragingOptions::default()).expect("a motion").noise();
+    let driven = of(Averaging::Limit).expect("a motion").noise();
     assert!((driven / (0.3 * 0.1 / 1.5 * sum(|_| 1.0)) - 1.0).abs() < 1e-14);
-    let finite = of(AveragingOptions::FINITE_R).expect("a motion").noise();
+    let finite = of(Averaging::FiniteR).expect("a motion").noise();
     let exact = 0.3 * 0.1 / 1.5 * sum(|r| r * r / (r * r - 1.0));
     assert!((finite / exact - 1.0).abs() < 1e-14);
 }
@@ -181,7 +181,7 @@ fn noise_and_a_sine() {
     let with_noise = dither(Direction::Tangential, 0.8, 64);
     for law in closed() {
         let belt = belt(law.clone(), 0.1, vec![sine.clone(), with_noise.clone()]);
-        let motion = FastMotion::of(&belt, 0.1, AveragingOptions::default()).expect("a motion");
+        let motion = FastMotion::of(&belt, 0.1, Averaging::Limit).expect("a motion");
         let found = effective(&law, &motion, 0.1).expect("a mean");
         // A smooth periodic integrand: the sum over equal phases converges faster than any power.
         let steps = 256;
@@ -205,10 +205,9 @@ fn critical_amplitudes_are_roots() {
     let stribeck = law(LawKind::Stribeck, &[0.4, 0.2857, 0.2]);
     for velocity in [0.05, 0.1, 0.15] {
         let noisy = belt(stribeck.clone(), velocity, vec![dither(Direction::Tangential, 1.0, 64)]);
-        let critical =
-            critical_amplitudes(&noisy, AveragingOptions::default()).expect("amplitudes");
+        let critical = critical_amplitudes(&noisy, Averaging::Limit).expect("amplitudes");
         assert!(!critical.is_empty(), "v₀ = {velocity}");
-        let unit = FastMotion::of(&noisy, velocity, AveragingOptions::default()).expect("a motion");
+        let unit = FastMotion::of(&noisy, velocity, Averaging::Limit).expect("a motion");
         let (fall, cubic) = (1.5 * 0.1143 / 0.2, 1.5 * 0.1143 / (3.0 * 0.008));
         let value = |amplitude: f64| {
             let deviation = amplitude * unit.noise();
@@ -235,9 +234,9 @@ fn bands_agree_with_the_criterion() {
     let at = |velocity: f64| {
         belt(stribeck.clone(), velocity, vec![dither(Direction::Tangential, 0.6, 64)])
     };
-    let bands = unstable_bands(&at(0.1), AveragingOptions::default()).expect("bands");
+    let bands = unstable_bands(&at(0.1), Averaging::Limit).expect("bands");
     assert_eq!(bands.len(), 1);
-    let value = |v: f64| criterion(&at(v), AveragingOptions::default()).expect("a value").value;
+    let value = |v: f64| criterion(&at(v), Averaging::Limit).expect("a value").value;
     let upper = bands[0].upper.expect("an end");
     for edge in [bands[0].lower, upper] {
         assert!(value(edge).abs() < 1e-8, "{edge}");
@@ -254,13 +253,13 @@ fn a_system_of_one_mass_is_the_belt() {
     let system = belt.system();
     let prepared = DitheredSystem::new(&system).expect("a response");
     let average = prepared.average().expect("an average");
-    let exact = criterion(&belt, AveragingOptions::FINITE_R).expect("a value");
+    let exact = criterion(&belt, Averaging::FiniteR).expect("a value");
     let contact = &average.contacts[0];
     assert!((contact.effective_coefficient / exact.effective.coefficient - 1.0).abs() < 1e-12);
     assert!((contact.slope_by_velocity / exact.effective.slope - 1.0).abs() < 1e-11);
     let growth = average.growth().expect("a growth rate").rate;
     assert!((growth + 0.5 * exact.value).abs() < 1e-10, "{growth} {}", exact.value);
-    let critical = critical_amplitudes(&belt, AveragingOptions::FINITE_R).expect("roots");
+    let critical = critical_amplitudes(&belt, Averaging::FiniteR).expect("roots");
     let found = prepared.critical_amplitudes(0).expect("roots");
     assert_eq!(found.len(), critical.len());
     for (one, other) in found.iter().zip(&critical) {
@@ -321,7 +320,7 @@ fn correlated_slip_and_load() {
 fn slow_noise_has_no_oscillator_response() {
     let slow = Dither { frequency_ratio: 1.1, ..dither(Direction::Tangential, 0.1, 8) };
     let slow = belt(law(LawKind::Coulomb, &[0.3, 0.4, 0.0]), 0.1, vec![slow]);
-    let found = FastMotion::of(&slow, 0.1, AveragingOptions::FINITE_R);
+    let found = FastMotion::of(&slow, 0.1, Averaging::FiniteR);
     assert!(
         matches!(found, Err(AveragingError::NotFast { frequency_ratio }) if frequency_ratio < 1.0)
     );

@@ -5,8 +5,7 @@
 use std::f64::consts::TAU;
 
 use quell_linear::averaging::{
-    AveragingOptions, DitheredSystem, FastMotion, FastResponse, FastWave, criterion,
-    critical_amplitudes, fast_wave,
+    Averaging, DitheredSystem, FastMotion, FastWave, criterion, critical_amplitudes,
 };
 use quell_linear::periodic_response::{NoPeriodicResponse, ResponseToWave};
 use quell_model::waveform::{Burst, FourierWave, Harmonic, Hold, SampledWave};
@@ -168,19 +167,16 @@ fn averages_of_bursts_and_samples() {
     for waveform in [burst, steps, lines] {
         let slope = |ratio: f64, response| {
             let belt = belt(1e-9, dither(waveform.clone(), 0.4 * ratio, ratio));
-            criterion(&belt, AveragingOptions { response, ..Default::default() }).unwrap().value
+            criterion(&belt, response).unwrap().value
         };
-        let limit = slope(10.0, FastResponse::Limit);
-        let [near, far] = [40.0, 160.0].map(|ratio| slope(ratio, FastResponse::Oscillator) - limit);
+        let limit = slope(10.0, Averaging::Limit);
+        let [near, far] = [40.0, 160.0].map(|ratio| slope(ratio, Averaging::FiniteR) - limit);
         assert!(near.abs() < 0.1 && far.abs() > 1e-7, "{waveform:?}: {near} {far}");
         assert!((near / far - 16.0).abs() < 1.5, "{waveform:?}: {near} {far}");
         let belt = belt(1e-9, dither(waveform.clone(), 0.4 * 12.0, 12.0));
         let system = belt.system();
         let average = DitheredSystem::new(&system).unwrap().average().unwrap();
-        let own = criterion(
-            &belt,
-            AveragingOptions { response: FastResponse::Oscillator, ..Default::default() },
-        );
+        let own = criterion(&belt, Averaging::FiniteR);
         let slope = average.contacts[0].slope_by_velocity;
         let exact = own.unwrap().value - 2e-9;
         assert!((slope - exact).abs() < 1e-7, "{waveform:?}: {slope} {exact}");
@@ -191,8 +187,8 @@ fn averages_of_bursts_and_samples() {
 #[test]
 fn many_samples_of_a_sine() {
     let values: Vec<f64> = (0..1000).map(|k| (TAU * f64::from(k) / 1000.0).sin()).collect();
-    for response in [FastResponse::Limit, FastResponse::Oscillator] {
-        let options = AveragingOptions { response, ..Default::default() };
+    for response in [Averaging::Limit, Averaging::FiniteR] {
+        let options = response;
         let of = |waveform: Waveform| {
             critical_amplitudes(&belt(0.005, dither(waveform, 1.0, 10.0)), options).unwrap()
         };
@@ -205,13 +201,4 @@ fn many_samples_of_a_sine() {
             }
         }
     }
-}
-
-#[test]
-fn shapes_of_other_waveforms_are_responses() {
-    let burst = Burst::new(Waveform::Square, 1, 1).unwrap().into_waveform();
-    let wave = fast_wave(&dither(burst, 1.0, 9.0), FastResponse::Oscillator).unwrap();
-    assert!(matches!(&wave, FastWave::Response(_)) && wave.cycles() == 2);
-    let slow = fast_wave(&dither(Waveform::Sine, 1.0, 0.9), FastResponse::Oscillator);
-    assert!(slow.is_err());
 }

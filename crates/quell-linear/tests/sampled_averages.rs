@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use quell_linear::averaging::{
-    AveragingOptions, CrossingKind, Effective, FastMotion, FastWave, PeriodicMotion, SlipTerm,
+    Averaging, CrossingKind, Effective, FastMotion, FastWave, PeriodicMotion, SlipTerm,
     critical_amplitudes, effective,
 };
 use quell_model::waveform::{Hold, SampledWave};
@@ -95,7 +95,7 @@ fn a_thousand_held_samples() {
     let started = Instant::now();
     let critical = |waveform| {
         let belt = belt(0.01, 0.1, law::stribeck(), vec![tangential(waveform, 0.5, 10.0)]);
-        critical_amplitudes(&belt, AveragingOptions::default()).expect("an average")
+        critical_amplitudes(&belt, Averaging::Limit).expect("an average")
     };
     let (held, sine) = (critical(sine(1000, Hold::Zero)), critical(Waveform::Sine));
     assert_eq!(held.len(), sine.len(), "{held:?} {sine:?}");

@@ -166,16 +166,16 @@ def test_names_of_variables_are_singular_and_have_no_dots() -> None:
         found = gallery.result(call).arrays
         names = {*found, *(dim for it in found.values() for dim in it.dims)}
         assert not [name for name in names if "." in name or "[" in name], call
-        assert not {"hysteresi", "hysteresi_part", "unstable_belt_velocitie", "acros"} & names, call
+        assert not {"hysteresi", "hysteresi_part", "unstable_surface_velocitie", "acros"} & names, call
     stability, run = gallery.result("stability"), gallery.result("simulate a system")
-    assert stability["unstable_belt_velocity_upper"].dims == ("unstable_belt_velocity",)
+    assert stability["unstable_surface_velocity_upper"].dims == ("unstable_surface_velocity",)
     intervals = _dataset.arrays("bifurcation", {"hysteresis": [[1.0, 2.0]]}, [])
     assert intervals["hysteresis_value"].dims == ("hysteresis", "hysteresis_part")
     with pytest.warns(FutureWarning, match="hysteresis is now named hysteresis_value"):
         assert intervals["hysteresis"] is intervals["hysteresis_value"]
-    with pytest.warns(FutureWarning, match="unstable_belt_velocitie_upper is now named unstable_belt_velocity_upper"):
-        old = stability["unstable_belt_velocitie_upper"]
-    assert old.identical(stability["unstable_belt_velocity_upper"])
+    with pytest.warns(FutureWarning, match="unstable_surface_velocitie_upper is now named unstable_surface_velocity_upper"):
+        old = stability["unstable_surface_velocitie_upper"]
+    assert old.identical(stability["unstable_surface_velocity_upper"])
     with pytest.warns(FutureWarning, match="velocity.motor is now named velocity_motor"):
         assert run.arrays["velocity.motor"] is run.arrays["velocity_motor"]
     assert "velocity.motor" in run.arrays and "velocity.motor" not in list(run.arrays)
@@ -192,7 +192,7 @@ def test_names_that_differ_only_in_dots_stay() -> None:
 
 @pytest.mark.parametrize(
     ("plural", "one"),
-    [("velocities", "velocity"), ("unstable_belt_velocities", "unstable_belt_velocity"), ("hysteresis", "hysteresis"),
+    [("velocities", "velocity"), ("unstable_surface_velocities", "unstable_surface_velocity"), ("hysteresis", "hysteresis"),
      ("responses", "response"), ("branches", "branch"), ("axes", "axis"), ("losses", "loss"), ("modes", "mode"), ("state", "state"),
      ("across", "across"), ("series", "series"), ("radius", "radius"), ("edges", "edge"), ("waves", "wave")],
 )  # fmt: skip

@@ -296,7 +296,7 @@ def test_friction_of_a_drive_is_given_in_newtons_and_ranges_are_told() -> None:
         ),
     )
     assert drive.check().facts["contacts"][0]["friction"]["friction_force"] == pytest.approx(2.0)
-    bands = drive.stability().facts["unstable_belt_velocities"]
+    bands = drive.stability().facts["unstable_surface_velocities"]
     assert bands[0]["upper"] == pytest.approx(0.190616072953803, rel=1e-9)
     coulomb = quell.Belt(**{**BELT, "friction": quell.Coulomb(0.3, static_coefficient=0.4)})
     assert coulomb.friction([0.2]).warnings == []

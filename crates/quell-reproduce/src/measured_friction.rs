@@ -17,7 +17,7 @@ use quell_dynamics::response::{
     WindowMean, measured_effective_friction, steady_effective_friction,
 };
 use quell_dynamics::simulation::Start;
-use quell_linear::averaging::{AveragingOptions, FastMotion, NormalOrder, effective};
+use quell_linear::averaging::{Averaging, FastMotion, effective};
 use quell_model::Belt;
 use quell_numerics::order::ascending;
 
@@ -229,8 +229,7 @@ fn averaged(name: &str, belt: &Belt) -> Result<Vec<(f64, f64)>, Failure> {
 
 /// The same at one slip velocity.
 pub(super) fn averaged_at(name: &str, belt: &Belt, v: f64) -> Result<f64, Failure> {
-    let options =
-        AveragingOptions { normal_order: NormalOrder::Second, ..AveragingOptions::default() };
+    let options = Averaging::LimitToSecondOrder;
     let found = FastMotion::of(belt, v, options)
         .and_then(|motion| effective(belt.friction(), &motion, v))
         .map_err(|error| failed(name, &error))?;

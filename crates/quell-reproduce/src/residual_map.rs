@@ -6,7 +6,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use quell_linear::averaging::{Becomes, FastResponse};
+use quell_linear::averaging::{Averaging, Becomes};
 use quell_model::{Direction, Waveform};
 
 use super::axis::values;
@@ -205,11 +205,11 @@ fn boundary(done: &FinishedMap, panel: &str, table: &mut DataTable) -> Vec<Polyl
     let furthest = grid.axes()[1].values.last().copied().unwrap_or(1.0);
     let mut lines = Vec::new();
     for boundary in boundaries(grid) {
-        let (name, label, role, style) = match boundary.response {
-            FastResponse::Limit => {
+        let (name, label, role, style) = match boundary.averaging {
+            Averaging::Limit | Averaging::LimitToSecondOrder => {
                 ("averaging", "averaging, $D$ = $α^*R$", PlotRole::Averaged, LineStyle::DashDotted)
             }
-            FastResponse::Oscillator => {
+            Averaging::FiniteR => {
                 ("finite_r", "finite-$R$ averaging", PlotRole::Averaged, LineStyle::ShortDashed)
             }
         };

@@ -6,8 +6,8 @@
 //! upper edge as printed for the triangle, (3.47), (4.35), where it is wrong.
 
 use quell_linear::averaging::{
-    AveragingOptions, EverywhereStable, FastResponse, FastWave, NoBand, closed_band,
-    everywhere_stable_amplitude, unstable_bands,
+    Averaging, EverywhereStable, FastWave, NoBand, closed_band, everywhere_stable_amplitude,
+    unstable_bands,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
@@ -321,8 +321,7 @@ impl StabilityPlane<'_> {
         let wave = FastWave::Oscillator { waveform: self.waveform.clone(), frequency_ratio: ratio };
         let tip = self.tip(damping_ratio, wave.clone())?;
         let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
-        let options =
-            AveragingOptions { response: FastResponse::Oscillator, ..AveragingOptions::default() };
+        let options = Averaging::FiniteR;
         let mut edges: [EdgeCurve; 2] = Default::default();
         for k in 0..=FEWER_POINTS {
             let alpha = end * f64::from(k) / f64::from(FEWER_POINTS);

@@ -2,8 +2,7 @@
 //!
 //! `cargo run --release --package quell --example own_law`
 
-use quell::outcome::{Answered, Outcome};
-use quell::run::{friction, stability};
+use quell::kind::verbs;
 use quell::{Failure, Study};
 
 /// A formula of the slip velocity v, proven finite and not negative up to the velocities that occur.
@@ -23,11 +22,10 @@ constants = { c = 0.1 }
 /// # Errors
 /// An invalid study, such as a formula that becomes negative.
 pub(crate) fn main() -> Result<(), Failure> {
-    let study = Study::parse(STUDY, &[])?.belt()?;
-    let curve = friction::run(&study, &[0.1, 0.2, 0.4]);
-    println!("{}", Answered::new(&study, curve).text());
-    let found = stability::run(&study);
-    assert_eq!(found.averaged.verdict(), "unstable");
-    println!("{}", Answered::new(&study, found).text());
+    let study = verbs(&Study::parse(STUDY, &[])?);
+    println!("{}", study.friction(Some(vec![0.1, 0.2, 0.4]), false)?.text());
+    let found = study.stability()?;
+    assert_eq!(found.json()["verdict"], "unstable");
+    println!("{}", found.text());
     Ok(())
 }

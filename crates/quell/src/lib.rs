@@ -116,8 +116,8 @@
 //! Give a formula of the slip velocity `v`. It is proven finite and non-negative up to the velocities that occur:
 //!
 //! ```
-//! use quell::BeltStudy;
-//! use quell::run::stability;
+//! use quell::Study;
+//! use quell::kind::verbs;
 //!
 //! # fn main() -> Result<(), quell::Failure> {
 //! let text = r#"
@@ -130,9 +130,8 @@
 //!     coefficient = "0.3 + 0.1*exp(-abs(v)/c)"
 //!     constants = { c = 0.1 }
 //! "#;
-//! let study = BeltStudy::parse(text, &[])?;
-//! let found = stability::run(&study);
-//! println!("{}", found.sentence(&study));
+//! let found = verbs(&Study::parse(text, &[])?).stability()?;
+//! println!("{}", found.text());
 //! # Ok(())
 //! # }
 //! ```

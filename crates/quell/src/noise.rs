@@ -1,8 +1,9 @@
 //! Noise in the answers of a study: its band in words and in JSON, and the warning about few lines.
 
+use quell_model::system::{Input, InputTarget};
 use quell_model::units::Quantity;
 use quell_model::waveform::{FEWEST_GAUSSIAN_LINES, Noise};
-use quell_model::{Belt, Direction, System};
+use quell_model::{Belt, System};
 use serde_json::{Value as Json, json};
 
 use crate::words::plural;
@@ -54,10 +55,12 @@ fn few<'a>(noises: impl Iterator<Item = &'a Noise>) -> Option<String> {
 }
 
 /// The warning about finite-R averaging under normal noise, of which the second order is left out.
-pub(crate) fn normal_noise(belt: &Belt) -> Option<String> {
-    let mut normal = belt.dithers_along(Direction::Normal);
-    normal.any(|dither| !dither.waveform.is_periodic()).then(|| {
-        "finite-R averaging under normal noise has the oscillator's own response to each line and the first order of the motion alone: the \
+pub(crate) fn normal_noise(system: &System) -> Option<String> {
+    let of_load = |input: &Input| matches!(input.target, InputTarget::NormalLoad { .. });
+    let mut waves =
+        system.inputs.iter().filter(|input| of_load(input)).flat_map(|input| input.profile.waves());
+    waves.any(|wave| wave.waveform.noise().is_some()).then(|| {
+        "averaging under noise of a load has the response of the structure to each line and the first order of the motion alone: the \
          second order has slow differences of the lines' frequencies, and no Gaussian distribution"
             .to_owned()
     })

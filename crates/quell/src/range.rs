@@ -9,7 +9,7 @@ use quell_dynamics::belt_motion::{ContactStart, run_belt};
 use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, LargestSlip, Observer, SimulationRun, Start, simulate, simulate_many,
 };
-use quell_linear::averaging::{AveragingOptions, DitheredContact, FastMotion};
+use quell_linear::averaging::{Averaging, DitheredContact, FastMotion};
 use quell_model::friction::SlipRange;
 use quell_model::units::Quantity;
 use quell_model::{Belt, Contact, System};
@@ -122,7 +122,7 @@ pub(crate) fn of_starts(cases: &[(&Belt, Start)], length: f64) -> Vec<f64> {
 
 /// The largest fast slip velocity at the belt velocity, at the finite R of the study; in the limit R → ∞ where that has none.
 pub(crate) fn fast_velocity(belt: &Belt) -> f64 {
-    let motion = FastMotion::of(belt, belt.belt_velocity(), AveragingOptions::FINITE_R);
+    let motion = FastMotion::of(belt, belt.belt_velocity(), Averaging::FiniteR);
     let fast = motion.and_then(|motion| motion.largest_slip());
     fast.unwrap_or_else(|_| belt.fast_velocity())
 }

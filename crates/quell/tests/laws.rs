@@ -4,12 +4,10 @@
 
 use quell::kind::verbs;
 use quell::run::orbit::Wanted;
-use quell::run::{
-    basins, bifurcation, friction, map, response, simulate, stability, thresholds, varied,
-};
+use quell::run::{basins, bifurcation, friction, map, response, simulate, thresholds, varied};
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
-use quell_linear::averaging::{AveragingOptions, Effective, FastMotion};
+use quell_linear::averaging::{Averaging, Effective, FastMotion};
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -181,8 +179,8 @@ fn friction_in_newtons_is_independent_of_the_normal_force() {
 #[test]
 fn the_drive_of_veraszto_and_stepan_has_its_hopf_point() {
     let study = study(DRIVE);
-    let bands = stability::run(&study).averaged.unstable_bands.expect("bands");
-    let upper = bands[0].upper.expect("an end") * study.scales().expect("SI").angular_frequency();
+    let bands = stability(&study)["unstable_surface_velocities"].clone();
+    let upper = bands[0]["upper"].as_f64().expect("an end");
     assert!((upper / 0.190616072953803 - 1.0).abs() < 1e-9, "{upper}");
 }
 
@@ -230,7 +228,11 @@ fn laws_not_analytic_at_rest_are_only_averaged() {
     let study = study(&text);
     let wrong = simulate::run(&study, 10.0, simulate::Options::default()).expect_err("no branch");
     assert!(format!("{wrong:?}").contains("exponent = 1, 2, 3 or 4"), "{wrong:?}");
-    assert!(stability::run(&study).averaged.criterion.is_ok());
+    assert!(stability(&study)["criterion"].is_f64());
+}
+
+fn stability(study: &BeltStudy) -> Json {
+    verbs(&study.into()).stability().expect("an answer").json()
 }
 
 fn orbit(study: &BeltStudy) -> Json {
@@ -251,7 +253,7 @@ fn a_cubic_far_out_warns_in_the_study_s_units() {
          static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity_m_per_s = 0.2\n";
     let far = study(si);
     for json in [
-        stability::run(&far).json(&far),
+        stability(&far),
         friction::run(&far, &[far.belt().belt_velocity()]).json(&far),
         verbs(&quell::Study::from(&far)).check().expect("valid").json(),
         simulate::run(&far, 20.0, simulate::Options::default()).expect("a run").json(&far),
@@ -289,14 +291,14 @@ fn every_verb_warns_where_slip_leaves_the_range() {
         let end = grid.last().copied().expect("points");
         // With dither, the average at a slip velocity reaches that velocity plus the fast velocity.
         let belt = study.belt();
-        let motion = FastMotion::of(belt, belt.belt_velocity(), AveragingOptions::FINITE_R);
+        let motion = FastMotion::of(belt, belt.belt_velocity(), Averaging::FiniteR);
         let met = end + motion.and_then(|motion| motion.largest_slip()).expect("a fast motion");
         assert!((met - 0.2 * 3f64.sqrt()).abs() < 1e-15, "{end}");
     }
     quiet(&friction::run(&inside, &friction::grid(inside.belt())).json(&inside));
     warns(&friction::run(&outside, &friction::grid(outside.belt())).json(&outside));
-    quiet(&stability::run(&inside).json(&inside));
-    warns(&stability::run(&outside).json(&outside));
+    quiet(&stability(&inside));
+    warns(&stability(&outside));
     let options = simulate::Options::default();
     quiet(&simulate::run(&inside, 40.0, options.clone()).expect("a run").json(&inside));
     warns(&simulate::run(&outside, 40.0, options).expect("a run").json(&outside));

@@ -5,7 +5,7 @@ use quell::kind::verbs;
 use quell::run::noise_response::{self, NoiseResponse};
 use quell::run::{friction, simulate};
 use quell::study::{BeltStudy, SystemStudy};
-use quell_linear::averaging::{AveragingOptions, FastMotion, critical_amplitudes};
+use quell_linear::averaging::{Averaging, FastMotion, critical_amplitudes};
 use quell_model::Waveform;
 use serde_json::Value as Json;
 
@@ -175,7 +175,7 @@ fn a_seed_decides_the_run() {
 fn averages_have_answers() {
     let noisy = study(&with_noise(3.0, BAND));
     let curve = friction::run(&noisy, &[0.05, 0.1, 0.0]);
-    let motion = FastMotion::of(noisy.belt(), 0.1, AveragingOptions::default()).expect("a motion");
+    let motion = FastMotion::of(noisy.belt(), 0.1, Averaging::Limit).expect("a motion");
     assert!((motion.noise() / (0.3 / 2f64.sqrt()) - 1.0).abs() < 0.05);
     assert!(curve.points.iter().all(|point| point.effective.is_ok()));
     let answer = verbs(&Study::from(&noisy)).stability().expect("a verdict").json();
@@ -186,7 +186,7 @@ fn averages_have_answers() {
         warnings.filter_map(Json::as_str).any(|text| text.contains("lines, fewer than 8"))
     };
     assert!(!warns(&answer));
-    let critical = critical_amplitudes(noisy.belt(), AveragingOptions::FINITE_R).expect("roots");
+    let critical = critical_amplitudes(noisy.belt(), Averaging::FiniteR).expect("roots");
     let found = answer["critical_amplitudes"].as_array().expect("roots");
     assert_eq!(found.len(), critical.len());
     assert!(found.iter().all(|one| one["kind"] == "root"));

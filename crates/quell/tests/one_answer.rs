@@ -194,8 +194,12 @@ fn verdicts_by_averaging_are_those_of_the_sentence() {
         let found = map(&axis, &quantities);
         assert_eq!(found["verdict"][0], "stable", "{found}");
         assert_eq!(found["limit_verdict"][0], "unstable", "{found}");
-        let ratio = &stability["critical_amplitudes"][0]["amplitude_ratio"];
-        assert!((number(&found["critical_amplitude"][0]) / number(ratio) - 1.0).abs() < 1e-12);
+        // Maps have the ratio α to the frequency.
+        let [critical, limit] =
+            [&stability, &stability["limit"]].map(|of| &of["critical_amplitudes"][0]);
+        let force = number(&limit["amplitude"]) / number(&limit["amplitude_ratio"]);
+        let least = force * number(&found["critical_amplitude"][0]);
+        assert!((least / number(&critical["amplitude"]) - 1.0).abs() < 1e-12);
         // Mean friction has the slope that decides: that of the limit has the other sign of 2ζ + Fμ̄′.
         let friction =
             verbs(&study(text)).friction(Some(vec![0.05]), false).expect("means").facts();

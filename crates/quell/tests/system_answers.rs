@@ -7,7 +7,7 @@ use quell::kind::verbs;
 use quell::outcome::Outcome;
 use quell::run::system::tracked::TrackRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
-use quell_linear::averaging::NoAverage;
+use quell_linear::averaging::AveragingError;
 use quell_linear::linearised::NoSteadySliding;
 use serde_json::Value as Json;
 
@@ -120,7 +120,7 @@ fn an_undamped_resonance_is_unbounded() {
 
 #[test]
 fn messages_have_short_numbers() {
-    let why = NoAverage::Resonance { frequency: 2f64.sqrt() * 1e300 }.to_string();
+    let why = AveragingError::Resonance { frequency: 2f64.sqrt() * 1e300 }.to_string();
     assert_eq!(why, "the dither of angular frequency 1.41421e300 excites an undamped resonance");
     let why = NoSteadySliding::Open { contact: "pad".to_owned(), normal_load: -1e-300 / 3.0 };
     assert!(why.to_string().ends_with("its normal load would be -3.33333e-301"), "{why}");

@@ -11,9 +11,7 @@ use quell::study::{BeltStudy, SystemStudy};
 use quell::sweep::{MapQuantity, Plan};
 use quell::{Failure, Study};
 use quell_dynamics::orbit::threshold::local;
-use quell_linear::averaging::{
-    AveragingOptions, Becomes, CrossingKind, FastResponse, critical_amplitudes,
-};
+use quell_linear::averaging::{Averaging, Becomes, CrossingKind, critical_amplitudes};
 use quell_linear::linear_cost::linear_cost;
 use quell_model::{Belt, Direction, Dither, Waveform};
 use serde_json::Value as Json;
@@ -95,7 +93,7 @@ fn averages_are_those_of_the_definition() {
         let stability = &row["stability"];
         let belt = study.belt();
         assert_eq!(belt.belt_velocity(), number(&stability["belt_velocity"]));
-        let found = critical_amplitudes(belt, AveragingOptions::LIMIT).expect("an average");
+        let found = critical_amplitudes(belt, Averaging::Limit).expect("an average");
         let end = number(&stability["scanned_to"]);
         let found: Vec<_> =
             found.iter().filter(|critical| critical.amplitude_ratio < end).collect();
@@ -187,10 +185,10 @@ const SYSTEM: &str = "[system]\ncoordinates = [\"x\"]\nmass = [1]\ndamping = [[0
 fn one_harmonic_is_a_sine() {
     let critical = |keys: &str, ratio: &str, response| {
         let text = with("tangential", keys).replace("frequency_ratio = 10.0", ratio);
-        let options = AveragingOptions { response, ..AveragingOptions::default() };
+        let options = response;
         critical_amplitudes(study(&text).belt(), options).expect("an average")
     };
-    for response in [FastResponse::Limit, FastResponse::Oscillator] {
+    for response in [Averaging::Limit, Averaging::FiniteR] {
         let half = "waveform = \"fourier\"\nharmonics = [{ order = 2, sine = 0.3, cosine = 0.4 }]";
         let found = critical(half, "frequency_ratio = 10.0", response);
         let sine = critical("waveform = \"sine\"", "frequency_ratio = 20.0", response);
@@ -221,7 +219,7 @@ fn held_samples_of_a_sine_are_nearly_a_sine() {
         .collect();
     let keys = format!("waveform = \"samples\"\nhold = \"zero\"\nvalues = [{}]", values.join(", "));
     let [held, sine] = [keys.as_str(), "waveform = \"sine\""].map(|keys| {
-        critical_amplitudes(study(&with("tangential", keys)).belt(), AveragingOptions::default())
+        critical_amplitudes(study(&with("tangential", keys)).belt(), Averaging::Limit)
             .expect("an average")
     });
     assert_eq!(held.len(), sine.len());
@@ -389,12 +387,12 @@ fn least_amplitudes_of_every_waveform() {
             let stable = found.iter().find(|critical| critical.becomes == Becomes::Stable);
             stable.expect("an amplitude").amplitude_ratio
         };
-        let limit = of(AveragingOptions::LIMIT);
+        let limit = of(Averaging::Limit);
         assert!((limit * peak / 0.05 - 1.0).abs() < 1e-9, "{row:?}");
         // Without damping; its part is the square of 2ζ over the repetition.
         let damped = (0.01 * f64::from(row.waveform.cycles()) / 60.0).powi(2);
         let ratio = least.amplitude / 60.0;
-        assert!((ratio / of(AveragingOptions::FINITE_R) - 1.0).abs() < damped, "{row:?}");
+        assert!((ratio / of(Averaging::FiniteR) - 1.0).abs() < damped, "{row:?}");
         // The velocity of a sine is that of the damped mass on its spring.
         if row.waveform == Waveform::Sine {
             let share = ratio / limit / ((1.0 - 1.0 / 3600.0_f64).hypot(0.01 / 60.0));

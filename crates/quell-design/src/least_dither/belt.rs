@@ -8,8 +8,7 @@ use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
 use quell_dynamics::response::BAND_END;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{
-    AveragedVerdict, AveragingError, AveragingOptions, Becomes, criterion,
-    critical_amplitudes_up_to,
+    AveragedVerdict, Averaging, AveragingError, Becomes, criterion, critical_amplitudes_up_to,
 };
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linear_cost::linear_cost;
@@ -151,7 +150,7 @@ fn averaged_changes(
     belt: &Belt,
     largest: f64,
 ) -> Result<(bool, Vec<AveragedChange>), AveragingError> {
-    let options = AveragingOptions::FINITE_R;
+    let options = Averaging::FiniteR;
     // A belt without dither has no amplitude to set.
     let without = belt.with_amplitude(0, 0.0);
     let without = criterion(without.as_ref().unwrap_or(belt), options)?;
@@ -214,8 +213,7 @@ impl Plant for BeltPlant<'_> {
 
     fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
         let belt = self.dithered(at, amplitude)?;
-        let dithered =
-            criterion(&belt, AveragingOptions::FINITE_R).map_err(|why| why.to_string())?;
+        let dithered = criterion(&belt, Averaging::FiniteR).map_err(|why| why.to_string())?;
         let without = belt.friction().coefficient(belt.belt_velocity());
         Ok(1.0 - dithered.effective.coefficient / without)
     }

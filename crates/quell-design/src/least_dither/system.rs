@@ -6,7 +6,7 @@ use quell_dynamics::motion::orbit::{
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{BAND_END, vibration_frequency};
-use quell_linear::averaging::{Becomes, DitheredSystem, NoAverage};
+use quell_linear::averaging::{AveragingError, Becomes, DitheredSystem};
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::growth::Verdict;
 use quell_linear::input_cost::input_cost;
@@ -205,12 +205,12 @@ pub fn amplitude_branch_of_system(
 /// The amplitudes of a dither of a system that are quiet by averaging, in a range.
 ///
 /// # Errors
-/// [`NoAverage`].
+/// [`AveragingError`].
 pub fn averaged_quiet_of_system(
     system: &System,
     input: usize,
     range: (f64, f64),
-) -> Result<QuietAmplitudes, NoAverage> {
+) -> Result<QuietAmplitudes, AveragingError> {
     let (quiet_without, changes) = averaged_changes(system, input)?;
     Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
 }
@@ -219,10 +219,10 @@ pub fn averaged_quiet_of_system(
 fn averaged_changes(
     system: &System,
     input: usize,
-) -> Result<(bool, Vec<AveragedChange>), NoAverage> {
+) -> Result<(bool, Vec<AveragedChange>), AveragingError> {
     let prepared = DitheredSystem::new(system)?;
     let without = prepared.average_with(Some((input, 0.0)))?;
-    let without = without.growth().map_err(NoAverage::Eigenvalues)?.verdict();
+    let without = without.growth().map_err(AveragingError::Eigenvalues)?.verdict();
     let changes = prepared.critical_amplitudes(input)?;
     let changes = changes.iter().map(|critical| AveragedChange {
         amplitude: critical.amplitude,

@@ -2,18 +2,14 @@
 
 use quell_dynamics::orbit::{self, Orbit, from_sliding};
 use quell_linear::averaging::{
-    AveragedVerdict, AveragingError, AveragingOptions, Becomes, Criterion, FastResponse,
-    NormalOrder, criterion, critical_amplitudes,
+    AveragedVerdict, Averaging, AveragingError, Becomes, Criterion, criterion, critical_amplitudes,
 };
 use quell_model::{Belt, Direction, Dither, Waveform};
 use quell_zoo::dither::dither;
 use quell_zoo::{BeltExt, all_belts, belt};
 
 /// Of the mass alone, R → ∞, and of the oscillator at its R.
-const OPTIONS: [AveragingOptions; 2] = [
-    AveragingOptions { response: FastResponse::Limit, normal_order: NormalOrder::First },
-    AveragingOptions { response: FastResponse::Oscillator, normal_order: NormalOrder::First },
-];
+const OPTIONS: [Averaging; 2] = [Averaging::Limit, Averaging::FiniteR];
 
 /// Without amplitude the averaged slope is the law's own, and the criterion is 2ζ + Fμ′(v₀).
 #[test]
@@ -67,7 +63,7 @@ fn the_verdict_changes_at_every_critical_amplitude() {
 fn lengths_scale_out() {
     let scale = 2f64.powi(-17);
     for named in all_belts() {
-        let found = |belt: &Belt| critical_amplitudes(belt, AveragingOptions::default());
+        let found = |belt: &Belt| critical_amplitudes(belt, Averaging::Limit);
         let (one, small) = (found(&named.model), found(&named.model.scaled(scale)));
         let (one, small) = match (one, small) {
             (Ok(one), Ok(small)) => (one, small),

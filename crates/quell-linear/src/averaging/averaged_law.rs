@@ -1,12 +1,11 @@
 //! The averaged friction law of one contact: its mean over a fast motion that is frozen, as a function of the slow slip velocity.
 //!
-//! Of a belt the fast motion is that of its dithers at one slip velocity ([`FastMotion::of`]). Of a contact of a system it is what the
-//! structure makes of all dithers there ([`super::FastInputs`]): the mean is T̄/N = ⟨μ(v + a)(1 + Ñ/N)⟩ under the mean load N. Under
+//! In the limit of high frequency the fast motion of a belt is that of its dithers alone ([`AveragedLaw::of_belt`]). At finite R, and
+//! of a contact of a system, it is what the structure makes of all dithers there ([`super::FastInputs`]): the mean is T̄/N = ⟨μ(v + a)(1 + Ñ/N)⟩ under the mean load N. Under
 //! noise slip and load are Gaussian, and ⟨μ(v + a)Ñ⟩ = ⟨aÑ⟩⟨μ′(v + a)⟩ (Stein's identity).
 
-use quell_model::{Belt, Friction};
+use quell_model::Friction;
 
-use super::dithers::AveragingOptions;
 use super::effective::{Effective, SlopeSide};
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
@@ -33,15 +32,6 @@ impl AveragedLaw {
         Self::new(law, [FastMotion::default(), FastMotion::default()], 0.0)
     }
 
-    /// The law of a belt under its dithers, with their fast motion at a slow slip velocity.
-    ///
-    /// # Errors
-    /// [`AveragingError`] where the fast motion has no value.
-    pub fn of_belt(belt: &Belt, v: f64, options: AveragingOptions) -> Result<Self, AveragingError> {
-        let motion = FastMotion::of(belt, v, options)?;
-        Ok(Self::new(belt.friction(), [motion.clone(), motion], 0.0))
-    }
-
     pub(super) fn new(law: &Friction, [whole, slip]: [FastMotion; 2], covariance: f64) -> Self {
         Self { law: law.clone(), whole, slip, covariance }
     }
@@ -49,6 +39,11 @@ impl AveragedLaw {
     /// The friction law.
     pub fn law(&self) -> &Friction {
         &self.law
+    }
+
+    /// The fast motion, with the load that goes with it.
+    pub fn motion(&self) -> &FastMotion {
+        &self.whole
     }
 
     /// Largest fast slip velocity; of noise four standard deviations.

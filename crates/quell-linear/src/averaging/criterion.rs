@@ -6,14 +6,10 @@
 
 use quell_model::Belt;
 
-use super::dithers::AveragingOptions;
+use super::averaged_law::AveragedLaw;
+use super::dithers::Averaging;
 use super::effective::{Effective, SlopeSide};
 use super::error::AveragingError;
-use super::fast_motion::FastMotion;
-use super::mean_friction::effective;
-
-/// Relative difference of two velocities that are the same up to the rounding of both.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Why a criterion has no sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,19 +74,9 @@ impl Criterion {
 ///
 /// # Errors
 /// [`AveragingError`], in particular [`AveragingError::SetValued`] for a belt at rest without tangential dither.
-pub fn criterion(belt: &Belt, options: AveragingOptions) -> Result<Criterion, AveragingError> {
+pub fn criterion(belt: &Belt, options: Averaging) -> Result<Criterion, AveragingError> {
     let v = belt.belt_velocity();
-    let motion = FastMotion::of(belt, v, options)?;
-    let effective = effective(belt.friction(), &motion, at_corner(&motion, v)?)?;
+    let law = AveragedLaw::of_belt(belt, v, options)?;
+    let effective = law.at(law.motion().at_corner(v)?)?;
     Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective))
-}
-
-/// A velocity, or the largest fast velocity where the two differ by a few roundings (of an amplitude ratio D/R, for instance): next to it
-/// the inner slope grows like the inverse root of the distance, and would be the rounding of that distance.
-fn at_corner(motion: &FastMotion, v: f64) -> Result<f64, AveragingError> {
-    if motion.noise() > 0.0 {
-        return Ok(v);
-    }
-    let corner = motion.largest_slip()?;
-    Ok(if (v - corner).abs() <= ROUNDING * corner { corner } else { v })
 }

@@ -11,14 +11,15 @@
 //! α = v_m √((1 − κ − w²)/⟨G²⟩) with κ = 4v_mζ/(3F(μ_s − μ_m)), w = v₀/v_m. Decreasing law: the root of
 //! m(α/v_m) = 2v_mζe^{w}/(F(μ_s − μ_m)). Normal dither: the same with α_T → μ(v₀)α_N.
 
-use quell_model::{Belt, Direction, Dither};
+use quell_model::{Belt, Direction};
 use quell_numerics::order::ascending;
 
+use super::averaged_law::AveragedLaw;
+use super::belt_averages::BeltAverages;
 use super::criterion::Criterion;
-use super::dithers::AveragingOptions;
+use super::dithers::Averaging;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
-use super::mean_friction::effective;
 use super::periodic::Signal;
 use super::sign_changes::{CrossingKind, grown, sign_changes};
 
@@ -61,9 +62,9 @@ pub struct CriticalAmplitude {
 /// [`AveragingError`], for instance for a belt at rest with normal dither only.
 pub fn critical_amplitudes(
     belt: &Belt,
-    options: AveragingOptions,
+    averaging: Averaging,
 ) -> Result<Vec<CriticalAmplitude>, AveragingError> {
-    critical_amplitudes_up_to(belt, options, f64::INFINITY)
+    critical_amplitudes_up_to(belt, averaging, f64::INFINITY)
 }
 
 /// Those up to an amplitude D = αR.
@@ -72,13 +73,14 @@ pub fn critical_amplitudes(
 /// As for [`critical_amplitudes`].
 pub fn critical_amplitudes_up_to(
     belt: &Belt,
-    options: AveragingOptions,
+    averaging: Averaging,
     largest: f64,
 ) -> Result<Vec<CriticalAmplitude>, AveragingError> {
     let Some(first) = belt.dithers().first() else {
         return Ok(Vec::new());
     };
-    let mut probe = Probe { belt, options, dithers: belt.dithers().to_vec() };
+    let averages = BeltAverages::new(belt, belt.belt_velocity(), averaging)?;
+    let probe = Probe { belt, frequency_ratio: first.frequency_ratio, averages };
     let largest = largest / first.frequency_ratio;
     let mut corners = probe.corners()?;
     let scale = corners
@@ -143,32 +145,27 @@ fn scan_points(corners: &[f64], scale: f64, at_rest: bool) -> Vec<f64> {
 /// The belt with another amplitude of its first dither, whether or not the contact would stay closed.
 struct Probe<'a> {
     belt: &'a Belt,
-    options: AveragingOptions,
-    dithers: Vec<Dither>,
+    frequency_ratio: f64,
+    averages: BeltAverages<'a>,
 }
 
 impl Probe<'_> {
-    fn motion(&mut self, alpha: f64) -> Result<FastMotion, AveragingError> {
-        self.dithers[0].amplitude = alpha * self.dithers[0].frequency_ratio;
-        let belt = self.belt;
-        FastMotion::of_dithers(
-            belt.friction(),
-            belt.normal_load(),
-            &self.dithers,
-            belt.belt_velocity(),
-            self.options,
-        )
+    fn law(&self, alpha: f64) -> Result<AveragedLaw, AveragingError> {
+        self.averages.law(Some(alpha * self.frequency_ratio))
     }
 
-    fn criterion(&mut self, alpha: f64) -> Result<f64, AveragingError> {
-        let motion = self.motion(alpha)?;
+    fn motion(&self, alpha: f64) -> Result<FastMotion, AveragingError> {
+        Ok(self.law(alpha)?.motion().clone())
+    }
+
+    fn criterion(&self, alpha: f64) -> Result<f64, AveragingError> {
         let belt = self.belt;
-        let effective = effective(belt.friction(), &motion, belt.belt_velocity())?;
+        let effective = self.law(alpha)?.at(belt.belt_velocity())?;
         Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective).value)
     }
 
     /// Amplitudes at which the Gaussian velocity is comparable to the belt velocity, where the criterion changes most.
-    fn noise_points(&mut self) -> Result<Vec<f64>, AveragingError> {
+    fn noise_points(&self) -> Result<Vec<f64>, AveragingError> {
         const POINTS: u32 = 160;
         let deviation = self.motion(1.0)?.noise();
         let velocity = self.belt.belt_velocity();
@@ -180,7 +177,7 @@ impl Probe<'_> {
     }
 
     /// Amplitudes at which the largest fast velocity equals the belt velocity.
-    fn corners(&mut self) -> Result<Vec<f64>, AveragingError> {
+    fn corners(&self) -> Result<Vec<f64>, AveragingError> {
         let v = self.belt.belt_velocity();
         if v == 0.0 {
             return Ok(Vec::new());
@@ -197,7 +194,7 @@ impl Probe<'_> {
             return Ok(vec![v / (amplitude.abs() * wave.peak())]);
         }
         // The fast motion of one dither is proportional to its amplitude: every maximum of it is a corner.
-        if let ([group], [_]) = (unit.groups(), self.dithers.as_slice())
+        if let ([group], [_]) = (unit.groups(), self.belt.dithers())
             && group.distortion == 0.0
         {
             let extrema = Signal::new(group)?.turning_values();
@@ -209,10 +206,10 @@ impl Probe<'_> {
         let scale = v.max(self.belt.friction().velocity_scale());
         let points: Vec<f64> =
             (0..160).map(|k| scale * libm::exp(-9.2 + 0.1 * f64::from(k))).collect();
-        let mut excess = |alpha: f64| -> Result<f64, AveragingError> {
+        let excess = |alpha: f64| -> Result<f64, AveragingError> {
             Ok(self.motion(alpha)?.largest_slip()? - v)
         };
-        let changes = sign_changes(&mut excess, &points, &[])?;
+        let changes = sign_changes(excess, &points, &[])?;
         Ok(changes.into_iter().map(|change| change.location).collect())
     }
 }

@@ -25,7 +25,7 @@ use quell_numerics::order::ascending;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
 use super::averaged_law::AveragedLaw;
-use super::dithers::AveragingOptions;
+use super::dithers::Averaging;
 use super::effective::SlopeSide;
 use super::error::{AveragingError, settled};
 use super::sign_changes::sign_changes;
@@ -89,7 +89,7 @@ impl DescribingFunction {
     ///
     /// # Errors
     /// As [`DescribingFunction::new`], and where the fast motion has no value.
-    pub fn of_belt(belt: &Belt, options: AveragingOptions) -> Result<Self, AveragingError> {
+    pub fn of_belt(belt: &Belt, options: Averaging) -> Result<Self, AveragingError> {
         let velocity = belt.belt_velocity();
         Self::new(AveragedLaw::of_belt(belt, velocity, options)?, velocity)
     }

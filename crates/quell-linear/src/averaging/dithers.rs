@@ -1,9 +1,9 @@
 //! The fast motion under one or several dithers: slip velocity s and normal load ν, grouped by frequency.
 //!
-//! Tangential dither D g(Rτ + φ) moves the mass with the velocity αG (α = D/R), or with the oscillator's exact response
-//! ([`FastResponse`]). Normal dither moves it through friction (4.23): φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + … with
-//! α_N = D_N/R_N; [`NormalOrder`] selects how many terms are kept. μ and μ′ are evaluated at the slow slip velocity and then
-//! *frozen*.
+//! Here in the limit of high frequency; at finite R the fast motion is that of the system of a belt ([`super::FastInputs`]).
+//! Tangential dither D g(Rτ + φ) moves the mass with the velocity αG (α = D/R). Normal dither moves it through friction (4.23):
+//! φ′ = α_N μ G − (α_N²/2) μμ′ (G² − ⟨G²⟩) + … with α_N = D_N/R_N; [`Averaging`] selects how many terms are kept. μ and μ′ are
+//! evaluated at the slow slip velocity and then *frozen*.
 //!
 //! Dithers whose frequency ratio is a ratio of small whole numbers form one periodic group and keep their phases; groups
 //! of incommensurate frequencies are averaged over independent phases. Several normal dithers of one group
@@ -13,169 +13,81 @@
 //! under the tangential dithers alone. The sum and difference frequencies of the two directions are neglected. This is exact to
 //! first order in α_N when α_T ≪ v.
 //!
-//! Noise is a Gaussian velocity, independent of the groups, whose variance is the sum over its lines: ½ Σ (αᵢ)², with the
-//! oscillator's gain at finite R. Its load is uncorrelated with its slip, line by line. Normal noise keeps the first term at any
-//! [`NormalOrder`]: the second has lines at the differences of the frequencies, which are not fast, and no Gaussian distribution.
+//! Noise is a Gaussian velocity, independent of the groups, whose variance is the sum over its lines: ½ Σ (αᵢ)². Its load is
+//! uncorrelated with its slip, line by line. Normal noise keeps the first term alone: the second has lines at the differences of the
+//! frequencies, which are not fast, and no Gaussian distribution.
 //!
-//! Limitations: leading order in 1/R (with [`FastResponse::Oscillator`] all orders of the forced part). The differences of the
-//! dither frequencies must be fast too: a slow beat is not averaged out.
+//! Limitations: leading order in 1/R. The differences of the dither frequencies must be fast too: a slow beat is not averaged out.
 
-use quell_model::{Belt, Direction, Dither, Friction};
-use quell_numerics::matrix::Matrix;
+use quell_model::{Direction, Dither, Friction};
 
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
 use super::periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
-use super::wave::{FastWave, sine_gain};
-use crate::periodic_response::ResponseToWave;
-
-/// Velocity that a tangential force of high frequency is assumed to produce.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FastResponse {
-    /// αG: the limit of high frequency, as averaged in the dissertation.
-    #[default]
-    Limit,
-    /// The exact response of the undamped oscillator (finite-R averaging): more accurate thresholds at no extra cost. Requires
-    /// R > 1.
-    Oscillator,
-}
-
-/// Number of terms of (4.23) that are kept for normal dither.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum NormalOrder {
-    /// φ′ = α_N μ G: the substitution α_T → μ(v₀)α_N of (4.33)–(4.42).
-    #[default]
-    First,
-    /// Also −(α_N²/2) μμ′ (G² − ⟨G²⟩): for a sine, the cos 2R_Nτ term of (4.22).
-    Second,
-}
+use super::wave::FastWave;
 
 /// Model of the fast motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct AveragingOptions {
-    /// Velocity response to the dither force.
-    pub response: FastResponse,
-    /// Terms kept for normal dither.
-    pub normal_order: NormalOrder,
+pub enum Averaging {
+    /// The limit of high dither frequency R → ∞, the averaging of the dissertation: the fast velocity is αG, and normal dither moves
+    /// the mass to first order, φ′ = α_N μ G: the substitution α_T → μ(v₀)α_N of (4.33)–(4.42).
+    #[default]
+    Limit,
+    /// The same with the second term of normal dither, −(α_N²/2) μμ′ (G² − ⟨G²⟩): for a sine, the cos 2R_Nτ term of (4.22).
+    LimitToSecondOrder,
+    /// The response of the mass on its spring and damper at the study's frequencies, that of normal dither to second order
+    /// ([`super::DitheredSystem`]).
+    FiniteR,
 }
 
 impl FastMotion {
-    /// Fast motion of a belt's dithers at slow slip velocity `v`.
-    ///
-    /// # Errors
-    /// [`AveragingError`] where the oscillator's response is requested at R ≤ 1, or where dither acts in both directions and
-    /// the friction level that drives the normal dither cannot be computed.
-    pub fn of(belt: &Belt, v: f64, options: AveragingOptions) -> Result<Self, AveragingError> {
-        Self::of_dithers(belt.friction(), belt.normal_load(), belt.dithers(), v, options)
-    }
-
-    /// The same from the parts of a belt, whether or not the contact would stay closed.
-    pub(super) fn of_dithers(
-        law: &Friction,
-        normal_load: f64,
+    /// Fast motion of dithers in the limit of high frequency under the law and the load of a belt, whether or not the contact would stay
+    /// closed.
+    pub(super) fn in_the_limit(
+        (law, normal_load): (&Friction, f64),
         dithers: &[Dither],
         v: f64,
-        options: AveragingOptions,
+        to_second_order: bool,
     ) -> Result<Self, AveragingError> {
         let acting: Vec<&Dither> = dithers.iter().filter(|d| d.amplitude > 0.0).collect();
-        let (level, slope) = friction_level(law, &acting, v, options)?;
-        let mut groups = grouped(&acting, (level, normal_load), options.response)?;
-        let noise = noise_variance(&acting, level, options)?;
-        if options.normal_order == NormalOrder::Second && level != 0.0 {
+        let (level, slope) = friction_level(law, &acting, v)?;
+        let mut groups = grouped(&acting, (level, normal_load));
+        if to_second_order && level != 0.0 {
             for group in groups.iter_mut().filter(|group| !group.normal.is_empty()) {
                 group.distortion = -0.5 * slope / level;
             }
         }
-        Ok(Self::new(groups).with_noise(noise.sqrt()))
+        Ok(Self::new(groups).with_noise(noise_variance(&acting, level).sqrt()))
     }
 }
 
 /// Variance of the fast velocity under the noise among some dithers; normal noise is driven by the friction coefficient `level`.
-fn noise_variance(
-    dithers: &[&Dither],
-    level: f64,
-    options: AveragingOptions,
-) -> Result<f64, AveragingError> {
-    let mut variance = 0.0;
-    for dither in dithers {
-        if dither.waveform.noise().is_none() {
-            continue;
-        }
+fn noise_variance(dithers: &[&Dither], level: f64) -> f64 {
+    let own = |dither: &&Dither| {
         let level = if dither.direction == Direction::Normal { level } else { 1.0 };
-        let own = dither.amplitude_ratio() * level * unit_noise(dither, options)?;
-        variance += own * own;
-    }
-    Ok(variance)
-}
-
-/// Standard deviation of the fast velocity under a dither of noise for D/R = 1; 0 of another waveform. At finite R each line has the
-/// gain of the oscillator at its own frequency.
-///
-/// # Errors
-/// [`AveragingError::NotFast`] where the oscillator's response is requested for a line at or below the natural frequency.
-pub(super) fn unit_noise(
-    dither: &Dither,
-    options: AveragingOptions,
-) -> Result<f64, AveragingError> {
-    let Some(noise) = dither.waveform.noise() else { return Ok(0.0) };
-    let middle = dither.frequency_ratio;
-    let mean_square = match options.response {
-        FastResponse::Limit => noise.mean_square(|ratio| 1.0 / ratio),
-        FastResponse::Oscillator if dither.lowest_ratio() > 1.0 => {
-            noise.mean_square(|ratio| sine_gain(ratio * middle) / ratio)
-        }
-        FastResponse::Oscillator => {
-            return Err(AveragingError::NotFast { frequency_ratio: dither.lowest_ratio() });
-        }
+        dither.amplitude_ratio() * level * unit_noise(dither)
     };
-    Ok(mean_square.sqrt())
+    dithers.iter().map(own).map(|own| own * own).sum()
 }
 
-/// Shape of the fast slip velocity of a dither.
-///
-/// # Errors
-/// [`AveragingError::NotFast`] where the oscillator's response is requested at R ≤ 1, [`AveragingError::NoResponse`] where a harmonic
-/// of a waveform is at its natural frequency.
-pub fn fast_wave(dither: &Dither, response: FastResponse) -> Result<FastWave, AveragingError> {
-    let (waveform, frequency_ratio) = (dither.waveform.clone(), dither.frequency_ratio);
-    match response {
-        FastResponse::Limit => Ok(FastWave::Integral(waveform)),
-        FastResponse::Oscillator if frequency_ratio <= 1.0 => {
-            Err(AveragingError::NotFast { frequency_ratio })
-        }
-        FastResponse::Oscillator if waveform.is_symmetric() => {
-            Ok(FastWave::Oscillator { waveform, frequency_ratio })
-        }
-        FastResponse::Oscillator => {
-            // x″ + x = R g, so that the velocity belongs to D/R = 1.
-            let matrix = Matrix::from_fn(2, 2, |i, j| [[0.0, 1.0], [-1.0, 0.0]][i][j]);
-            let source = [0.0, frequency_ratio];
-            let response = ResponseToWave::new(&matrix, &source, &waveform, frequency_ratio)
-                .map_err(AveragingError::NoResponse)?;
-            let velocity = response.outputs(&[(&[0.0, 1.0], 0.0)]).swap_remove(0);
-            Ok(FastWave::Response(velocity.into()))
-        }
-    }
+/// Standard deviation of the fast velocity under a dither of noise for D/R = 1 in the limit of high frequency; 0 of another waveform.
+pub(super) fn unit_noise(dither: &Dither) -> f64 {
+    dither.waveform.noise().map_or(0.0, |noise| noise.mean_square(|ratio| 1.0 / ratio).sqrt())
 }
 
 /// Groups of dithers of commensurate frequencies; the motion due to normal dithers is driven by the friction coefficient `level`
 /// under the load.
-fn grouped(
-    dithers: &[&Dither],
-    (level, normal_load): (f64, f64),
-    response: FastResponse,
-) -> Result<Vec<PeriodicMotion>, AveragingError> {
-    let mut groups = Vec::new();
+fn grouped(dithers: &[&Dither], (level, normal_load): (f64, f64)) -> Vec<PeriodicMotion> {
     let periodic = dithers.iter().filter(|dither| dither.waveform.is_periodic());
     let dithers: Vec<Dither> = periodic.flat_map(|dither| dither.by_harmonics()).collect();
     let frequencies: Vec<f64> = dithers.iter().map(Dither::repetition_ratio).collect();
-    for members in commensurate_groups(&frequencies) {
-        let mut group = PeriodicMotion::default();
+    let groups = commensurate_groups(&frequencies).into_iter().map(|members| {
+        let mut group = PeriodicMotion { load_is_slope: true, ..PeriodicMotion::default() };
         for (index, multiple) in members {
             let dither = &dithers[index];
             let harmonic = multiple * dither.waveform.cycles();
-            let wave = fast_wave(dither, response)?;
+            let wave = FastWave::Integral(dither.waveform.clone());
             let (alpha, phase) = (dither.amplitude_ratio(), dither.phase);
             match dither.direction {
                 Direction::Tangential => {
@@ -193,9 +105,9 @@ fn grouped(
                 }
             }
         }
-        groups.push(group);
-    }
-    Ok(groups)
+        group
+    });
+    groups.collect()
 }
 
 /// Friction coefficient and slope that drive the motion due to the normal dithers at slow slip velocity v.
@@ -203,7 +115,6 @@ fn friction_level(
     law: &Friction,
     dithers: &[&Dither],
     v: f64,
-    options: AveragingOptions,
 ) -> Result<(f64, f64), AveragingError> {
     if dithers.iter().all(|d| d.direction == Direction::Tangential) {
         return Ok((0.0, 0.0));
@@ -217,8 +128,8 @@ fn friction_level(
         return Ok((law.coefficient(v.abs()).copysign(v), law.slope(v.abs())));
     }
     // There is no normal dither among them, so level and load have no effect.
-    let groups = grouped(&tangential, (0.0, 1.0), options.response)?;
-    let noise = noise_variance(&tangential, 0.0, options)?.sqrt();
+    let groups = grouped(&tangential, (0.0, 1.0));
+    let noise = noise_variance(&tangential, 0.0).sqrt();
     let mean = effective(law, &FastMotion::new(groups).with_noise(noise), v)?;
     Ok((mean.coefficient, mean.slope))
 }

@@ -19,12 +19,12 @@ use quell_model::{Belt, Friction, Waveform};
 use quell_numerics::order::ascending;
 use quell_numerics::special::ln;
 
+use super::averaged_law::AveragedLaw;
 use super::criterion::{AveragedVerdict, Criterion, UndecidedBecause};
 use super::decreasing::scaled_mean_exponential;
-use super::dithers::AveragingOptions;
+use super::dithers::Averaging;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
-use super::mean_friction::effective;
 use super::periodic::Signal;
 use super::sign_changes::{CrossingKind, sign_changes};
 use super::single_wave;
@@ -191,12 +191,12 @@ fn searched_edge(
 /// [`AveragingError`].
 pub fn unstable_bands(
     belt: &Belt,
-    options: AveragingOptions,
+    averaging: Averaging,
 ) -> Result<Vec<UnstableBand>, AveragingError> {
     let law = belt.friction();
-    let motion = |v: f64| FastMotion::of(belt, v, options);
+    let motion = |v: f64| FastMotion::of(belt, v, averaging);
     let criterion = |v: f64| -> Result<Criterion, AveragingError> {
-        let effective = effective(law, &motion(v)?, v)?;
+        let effective = AveragedLaw::of_belt(belt, v, averaging)?.at(v)?;
         Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective))
     };
     let value = |v: f64| criterion(v).map(|found| found.value);

@@ -1,9 +1,11 @@
 //! Why an average has no value.
 
 use quell_model::digits::digits;
+use quell_numerics::eigen::EigenError;
 use quell_numerics::quadrature::{Integral, QuadratureError};
 
 use crate::periodic_response::NoPeriodicResponse;
+use crate::steady::NoSteadySliding;
 
 /// Why an average is not a number.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,15 +22,44 @@ pub enum AveragingError {
         /// Largest number supported.
         largest: usize,
     },
-    /// The oscillator's response was requested at a frequency ratio that is not above resonance.
+    /// The response of a belt was requested to a dither that is not faster than the mass itself.
     NotFast {
         /// Frequency ratio R ≤ 1.
         frequency_ratio: f64,
     },
-    /// The oscillator's response was requested for a wave to which it has no periodic response.
+    /// A dither excites an undamped resonance.
+    Resonance {
+        /// Angular frequency.
+        frequency: f64,
+    },
+    /// A wave has no periodic response in the structure.
     NoResponse(NoPeriodicResponse),
+    /// No steady sliding exists.
+    NoSteadySliding(NoSteadySliding),
+    /// A dither is a factor on the friction force of a contact.
+    FrictionFactor,
+    /// The state matrix overflows.
+    Eigenvalues(EigenError),
     /// A quadrature did not reach its tolerance.
     Quadrature(QuadratureError),
+}
+
+impl From<NoPeriodicResponse> for AveragingError {
+    fn from(why: NoPeriodicResponse) -> Self {
+        Self::NoResponse(why)
+    }
+}
+
+impl From<NoSteadySliding> for AveragingError {
+    fn from(why: NoSteadySliding) -> Self {
+        Self::NoSteadySliding(why)
+    }
+}
+
+impl From<EigenError> for AveragingError {
+    fn from(why: EigenError) -> Self {
+        Self::Eigenvalues(why)
+    }
 }
 
 impl From<QuadratureError> for AveragingError {
@@ -51,12 +82,23 @@ impl core::fmt::Display for AveragingError {
             ),
             Self::NotFast { frequency_ratio } => write!(
                 f,
-                "the oscillator's own response to the dither requires a frequency ratio above 1, not {}",
+                "averaging at finite R requires a frequency ratio above 1, not {}",
                 digits(*frequency_ratio, 6)
             ),
+            Self::Resonance { frequency } => write!(
+                f,
+                "the dither of angular frequency {} excites an undamped resonance",
+                digits(*frequency, 6)
+            ),
             Self::NoResponse(why) => {
-                write!(f, "the oscillator's own response to the dither has no value: {why}")
+                write!(f, "the fast motion under the dither has no value: {why}")
             }
+            Self::NoSteadySliding(why) => write!(f, "no steady sliding: {why}"),
+            Self::FrictionFactor => f.write_str(
+                "a dither is a factor on a friction force, whose product with the fast motion of the contact no average has: exact \
+                 exponents and motions have it",
+            ),
+            Self::Eigenvalues(why) => why.fmt(f),
             Self::Quadrature(error) => write!(f, "averaging: {error}"),
         }
     }

@@ -8,8 +8,9 @@
 use quell_model::{Belt, Direction, Dither};
 use quell_numerics::roots::{Closeness, try_minimise};
 
+use super::belt_averages::BeltAverages;
 use super::criterion::Criterion;
-use super::dithers::{AveragingOptions, unit_noise};
+use super::dithers::Averaging;
 use super::edges::{CriticalVelocity, undithered_critical_velocity};
 use super::error::AveragingError;
 use super::everywhere_stable::{EverywhereStable, NeverStable};
@@ -34,11 +35,11 @@ const CLOSENESS: f64 = 1e-7;
 /// α^L for a belt whose only dither is noise.
 ///
 /// # Errors
-/// [`AveragingError`], in particular [`AveragingError::NotFast`] for finite-R averaging of noise below the natural frequency.
+/// [`AveragingError`].
 pub fn everywhere_stable_under_noise(
     belt: &Belt,
     dither: &Dither,
-    options: AveragingOptions,
+    averaging: Averaging,
 ) -> Result<EverywhereStable, AveragingError> {
     let law = belt.friction();
     let end = match undithered_critical_velocity(law, belt.damping_ratio(), belt.normal_load())? {
@@ -50,7 +51,11 @@ pub fn everywhere_stable_under_noise(
         }
         CriticalVelocity::Above(end) => end,
     };
-    let search = WorstVelocity { belt, unit: unit_noise(dither, options)?, dither, end };
+    // In proportion to the level of friction under normal noise, at any velocity.
+    let velocity = belt.friction().velocity_scale();
+    let unit = BeltAverages::new(belt, velocity, averaging)?.law(Some(dither.frequency_ratio))?;
+    let level = level_of(belt, dither, velocity);
+    let search = WorstVelocity { belt, unit: unit.motion().noise() / level, dither, end };
     let first = FROM * law.velocity_scale() / search.unit;
     let points: Vec<f64> =
         (0..AMPLITUDES).map(|k| first * libm::exp(RATIO * f64::from(k))).collect();
@@ -78,20 +83,14 @@ struct WorstVelocity<'a> {
 impl WorstVelocity<'_> {
     fn criterion(&self, alpha: f64, v: f64) -> Result<f64, AveragingError> {
         let law = self.belt.friction();
-        let level = match self.dither.direction {
-            Direction::Tangential => 1.0,
-            Direction::Normal => law.coefficient(v),
-        };
+        let level = level_of(self.belt, self.dither, v);
         let effective = gaussian::effective(law, alpha * self.unit * level, v)?;
         Ok(Criterion::new(self.belt.damping_ratio(), self.belt.normal_load(), effective).value)
     }
 
     /// The least criterion over the belt velocities.
     fn least(&self, alpha: f64) -> Result<f64, AveragingError> {
-        let level = match self.dither.direction {
-            Direction::Tangential => 1.0,
-            Direction::Normal => self.belt.friction().coefficient(0.0),
-        };
+        let level = level_of(self.belt, self.dither, 0.0);
         let most = self.end + BEYOND * alpha * self.unit * level;
         let location = |k: u32| most * f64::from(k) / f64::from(VELOCITIES);
         let mut worst = (f64::INFINITY, 1);
@@ -106,5 +105,13 @@ impl WorstVelocity<'_> {
         let value = |v: f64| self.criterion(alpha, v);
         let bottom = try_minimise(value, low.max(1e-3 * high), high, closeness)?;
         Ok(bottom.map_or(worst.0, |bottom| bottom.value.min(worst.0)))
+    }
+}
+
+/// The friction coefficient that drives the motion due to normal dither at a slip velocity; 1 of tangential dither.
+fn level_of(belt: &Belt, dither: &Dither, v: f64) -> f64 {
+    match dither.direction {
+        Direction::Tangential => 1.0,
+        Direction::Normal => belt.friction().coefficient(v),
     }
 }

@@ -4,6 +4,7 @@
 //! is the same: fast slip and load of every contact, their mean friction, and the amplitudes at which a contact reverses.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -16,10 +17,11 @@ use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 use super::averaged_law::{AveragedLaw, curvature};
 use super::dithers::commensurate_groups;
+use super::effective::SlopeSide;
 use super::error::AveragingError;
 use super::fast_motion::{FastMotion, REACH};
+use super::independent::MAX_GROUPS;
 use super::mean_friction::{effective, of_fluctuating_load};
-use super::no_average::{MOST_FREQUENCIES, NoAverage};
 use super::periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
 use super::sign_changes::sign_changes;
 use super::wave::FastWave;
@@ -55,6 +57,8 @@ pub struct DitheredContact {
     pub ratchet_force: f64,
     /// ∂T̄/∂γ.
     pub slope_by_velocity: f64,
+    /// Whether that slope is the one of slightly faster slip: the fast slip just reaches the slow one.
+    pub one_sided: bool,
 }
 
 impl DitheredContact {
@@ -113,14 +117,21 @@ struct NoiseMoments {
 }
 
 impl NoiseMoments {
-    /// Adds the lines of a noise, each of which has this amplitude.
-    fn add(&mut self, lines: &[Vec<ContactResponse>], contact: usize, amplitude: f64) {
-        let half = 0.5 * amplitude * amplitude;
+    /// Adds the lines of a noise; nothing of another wave.
+    fn add(&mut self, wave: &ActingWave<'_>, contact: usize) {
+        let (WaveShape::Lines(lines), Some(noise)) =
+            (&wave.response.shape, wave.response.wave.waveform.noise())
+        else {
+            return;
+        };
+        let [slip_amplitude, load_amplitude] =
+            wave.amplitudes(contact).map(|amplitude| noise.line_amplitude() * amplitude);
         for line in lines {
             let ContactResponse { slip, load } = line[contact];
-            self.slip += half * slip.norm_sqr();
-            self.load += half * load.norm_sqr();
-            self.covariance += half * (slip * load.conj()).re;
+            let (slip, load) = (slip * slip_amplitude, load * load_amplitude);
+            self.slip += 0.5 * slip.norm_sqr();
+            self.load += 0.5 * load.norm_sqr();
+            self.covariance += 0.5 * (slip * load.conj()).re;
         }
     }
 }
@@ -135,8 +146,8 @@ impl FastInputs {
     /// From the response of every contact to each wave of the inputs, for û = 1, all of them sines.
     ///
     /// # Errors
-    /// The first error of `response`; [`NoAverage::TooManyFrequencies`].
-    pub fn new<E: From<NoAverage>>(
+    /// The first error of `response`; [`AveragingError::TooManyGroups`].
+    pub fn new<E: From<AveragingError>>(
         system: &System,
         mut response: impl FnMut(&InputTarget, &Wave) -> Result<Vec<ContactResponse>, E>,
     ) -> Result<Self, E> {
@@ -151,11 +162,11 @@ impl FastInputs {
         Ok(Self::of(waves)?)
     }
 
-    pub(super) fn of(waves: Vec<WaveResponse>) -> Result<Self, NoAverage> {
+    pub(super) fn of(waves: Vec<WaveResponse>) -> Result<Self, AveragingError> {
         let frequencies: Vec<f64> = waves.iter().filter_map(WaveResponse::repetition).collect();
         let count = commensurate_groups(&frequencies).len();
-        if count > MOST_FREQUENCIES {
-            return Err(NoAverage::TooManyFrequencies { count });
+        if count > MAX_GROUPS {
+            return Err(AveragingError::TooManyGroups { groups: count, largest: MAX_GROUPS });
         }
         Ok(Self { waves })
     }
@@ -163,30 +174,32 @@ impl FastInputs {
     /// Mean friction of every contact as a function of its load; `changed` gives another amplitude of one input.
     ///
     /// # Errors
-    /// [`NoAverage`] if a mean has no value.
+    /// [`AveragingError`] if a mean has no value.
     pub fn lines(
         &self,
         system: &System,
         changed: Option<(usize, f64)>,
-    ) -> Result<Vec<FrictionLine>, NoAverage> {
+    ) -> Result<Vec<FrictionLine>, AveragingError> {
         let contacts = system.contacts.iter().enumerate();
-        contacts.map(|(index, contact)| self.motion(system, index, changed).line(contact)).collect()
+        contacts
+            .map(|(index, contact)| self.motion(system, index, changed)?.line(contact))
+            .collect()
     }
 
     /// What the dither does to every contact, in a steady sliding that was found with [`FastInputs::lines`].
     ///
     /// # Errors
-    /// [`NoAverage::Mean`].
+    /// [`AveragingError`].
     pub fn contacts(
         &self,
         system: &System,
         steady: &[SteadyContact],
         changed: Option<(usize, f64)>,
-    ) -> Result<Vec<DitheredContact>, NoAverage> {
+    ) -> Result<Vec<DitheredContact>, AveragingError> {
         let contacts = steady.iter().enumerate();
         contacts
             .map(|(index, contact)| {
-                let motion = self.motion(system, index, changed);
+                let motion = self.motion(system, index, changed)?;
                 let SteadyContact { line, normal_load, friction, factor, .. } = *contact;
                 Ok(DitheredContact {
                     slip_amplitude: motion.slip_amplitude()?,
@@ -196,17 +209,26 @@ impl FastInputs {
                     effective_coefficient: line.coefficient,
                     ratchet_force: line.constant,
                     slope_by_velocity: factor * line.slope_under(normal_load),
+                    one_sided: line.one_sided,
                 })
             })
             .collect()
     }
 
-    /// The averaged friction law of a contact under a mean normal load.
-    pub fn law(&self, system: &System, contact: usize, normal_load: f64) -> AveragedLaw {
+    /// The averaged friction law of a contact under a mean normal load; `changed` gives another amplitude of one input.
+    ///
+    /// # Errors
+    /// [`AveragingError`] where the friction that drives a fast load's motion has no value.
+    pub fn law(
+        &self,
+        system: &System,
+        (contact, normal_load): (usize, f64),
+        changed: Option<(usize, f64)>,
+    ) -> Result<AveragedLaw, AveragingError> {
         let ContactMotion { whole, slip, covariance, .. } =
-            self.motion_under(system, contact, normal_load, None);
+            self.motion_under(system, (contact, normal_load), changed)?;
         let covariance = covariance / normal_load;
-        AveragedLaw::new(&system.contacts[contact].friction, [whole, slip], covariance)
+        Ok(AveragedLaw::new(&system.contacts[contact].friction, [whole, slip], covariance))
     }
 
     /// How far the fast slip exceeds the velocity of the surface, against it; negative while the contact slips in one direction.
@@ -215,17 +237,17 @@ impl FastInputs {
         system: &System,
         contact: usize,
         changed: (usize, f64),
-    ) -> Result<f64, NoAverage> {
+    ) -> Result<f64, AveragingError> {
         let velocity = system.contacts[contact].surface_velocity.mean();
-        let [low, high] = self.motion(system, contact, Some(changed)).slip.slip_range()?;
+        let [low, high] = self.motion(system, contact, Some(changed))?.slip.slip_range()?;
         Ok(if velocity > 0.0 { high - velocity } else { velocity - low })
     }
 
     /// Amplitudes of an input at which the fast slip of a contact reaches the velocity of its surface, ascending.
     ///
     /// # Errors
-    /// [`NoAverage::Mean`].
-    pub fn corners(&self, system: &System, input: usize) -> Result<Vec<f64>, NoAverage> {
+    /// [`AveragingError`].
+    pub fn corners(&self, system: &System, input: usize) -> Result<Vec<f64>, AveragingError> {
         let mut corners: Vec<f64> = Vec::new();
         for contact in 0..system.contacts.len() {
             let excess = |amplitude: f64| self.reversal_excess(system, contact, (input, amplitude));
@@ -256,7 +278,8 @@ impl FastInputs {
         let (Some(&least), Some(&largest)) = (corners.first(), corners.last()) else {
             return Vec::new();
         };
-        let (mut amplitude, end) = (least / BELOW, largest * BEYOND);
+        // Below the smallest normal number no ratio makes an amplitude larger.
+        let (mut amplitude, end) = ((least / BELOW).max(f64::MIN_POSITIVE), largest * BEYOND);
         let mut points = vec![0.0];
         while amplitude < end {
             points.push(amplitude);
@@ -278,18 +301,17 @@ impl FastInputs {
         system: &System,
         contact: usize,
         changed: Option<(usize, f64)>,
-    ) -> ContactMotion {
-        self.motion_under(system, contact, system.contacts[contact].normal_load, changed)
+    ) -> Result<ContactMotion, AveragingError> {
+        self.motion_under(system, (contact, system.contacts[contact].normal_load), changed)
     }
 
     /// Fast motion at a contact, its load over a given one.
     fn motion_under(
         &self,
         system: &System,
-        contact: usize,
-        normal_load: f64,
+        (contact, normal_load): (usize, f64),
         changed: Option<(usize, f64)>,
-    ) -> ContactMotion {
+    ) -> Result<ContactMotion, AveragingError> {
         let amplitude = |response: &WaveResponse| match changed {
             Some((input, amplitude)) if input == response.input => {
                 let first = system.inputs[input].profile.waves()[0].amplitude;
@@ -298,52 +320,109 @@ impl FastInputs {
             }
             _ => response.wave.amplitude,
         };
-        let mut noise = NoiseMoments::default();
-        for response in &self.waves {
-            if let (WaveShape::Lines(lines), Some(of)) =
-                (&response.shape, response.wave.waveform.noise())
-            {
-                noise.add(lines, contact, of.line_amplitude() * amplitude(response));
-            }
-        }
-        let (periodic, frequencies): (Vec<&WaveResponse>, Vec<f64>) = self
+        let (borne, imposed): (Vec<ActingWave>, Vec<ActingWave>) = self
             .waves
             .iter()
-            .filter_map(|response| Some((response, response.repetition()?)))
-            .unzip();
-        let groups = commensurate_groups(&frequencies).into_iter().map(|members| {
-            let mut parts = GroupParts::default();
-            for (index, multiple) in members {
-                let response = periodic[index];
-                parts.add(response, contact, (amplitude(response), multiple));
+            .map(|response| ActingWave::new(system, response, amplitude(response)))
+            .filter(|wave| wave.amplitude != 0.0)
+            .partition(|wave| wave.borne_by.is_some());
+        let mut drives: BTreeMap<usize, DrivingFriction> = BTreeMap::new();
+        for by in borne.iter().filter_map(|wave| wave.borne_by) {
+            if let Entry::Vacant(vacant) = drives.entry(by) {
+                vacant.insert(DrivingFriction::new(&system.contacts[by], (by, &imposed))?);
             }
-            parts.motion(normal_load)
+        }
+        let driven = borne.into_iter().map(|wave| match wave.borne_by {
+            Some(by) => ActingWave { share: drives[&by].share, ..wave },
+            None => wave,
         });
-        ContactMotion::new(groups.collect(), noise, normal_load)
+        let acting: Vec<ActingWave> = imposed.iter().copied().chain(driven).collect();
+        let distortion = drives.get(&contact).map_or(0.0, |drive| drive.distortion);
+        Ok(ContactMotion::new(contact, &acting, normal_load, distortion))
+    }
+}
+
+/// A wave with the amplitude at which it acts.
+#[derive(Clone, Copy, Debug)]
+struct ActingWave<'a> {
+    response: &'a WaveResponse,
+    amplitude: f64,
+    /// The contact whose load it is, if that contact bears it by friction alone: it has no normal row.
+    borne_by: Option<usize>,
+    /// Mean friction that drives the response over that of steady sliding.
+    share: f64,
+}
+
+impl<'a> ActingWave<'a> {
+    fn new(system: &System, response: &'a WaveResponse, amplitude: f64) -> Self {
+        let borne_by = match system.inputs[response.input].target {
+            InputTarget::NormalLoad { contact, .. } => {
+                Some(contact).filter(|index| system.contacts[*index].normal.is_none())
+            }
+            _ => None,
+        };
+        Self { response, amplitude, borne_by, share: 1.0 }
+    }
+
+    /// Amplitudes of the slip and of the load at a contact, whose own load is what it is.
+    fn amplitudes(&self, contact: usize) -> [f64; 2] {
+        let driven = self.amplitude * self.share;
+        [driven, if self.borne_by == Some(contact) { self.amplitude } else { driven }]
+    }
+}
+
+/// How friction under the dithers that no contact bears drives the motion due to the fast load of a contact.
+#[derive(Clone, Copy, Debug)]
+struct DrivingFriction {
+    /// Mean friction over that of steady sliding.
+    share: f64,
+    /// −μ̄′/(2μ̄).
+    distortion: f64,
+}
+
+impl DrivingFriction {
+    fn new(
+        contact: &Contact,
+        (index, imposed): (usize, &[ActingWave<'_>]),
+    ) -> Result<Self, AveragingError> {
+        let Ok(sliding) = FrictionLine::of(contact) else {
+            return Ok(Self { share: 1.0, distortion: 0.0 });
+        };
+        let motion = ContactMotion::new(index, imposed, contact.normal_load, 0.0);
+        let (mut level, mut slope) = (sliding.coefficient, sliding.slope);
+        if motion.moves() {
+            let mean = effective(&contact.friction, &motion.slip, contact.surface_velocity.mean())?;
+            (level, slope) = (mean.coefficient, mean.slope);
+        }
+        let distortion = if level == 0.0 { 0.0 } else { -0.5 * slope / level };
+        Ok(Self { share: level / sliding.coefficient, distortion })
     }
 }
 
 /// Parts of the fast motion of one contact in one group of commensurate frequencies.
 #[derive(Debug, Default)]
 struct GroupParts {
-    /// Terms by polynomials.
-    slip_terms: Vec<SlipTerm>,
+    /// Terms by polynomials: slip, and slip due to the contact's own load.
+    slip_terms: [Vec<SlipTerm>; 2],
     load_terms: Vec<LoadTerm>,
-    /// Complex amplitudes of a and Ñ by harmonic.
-    harmonics: BTreeMap<u32, [Complex64; 2]>,
+    /// Complex amplitudes of a, of a due to the contact's own load, and of Ñ by harmonic.
+    harmonics: BTreeMap<u32, [Complex64; 3]>,
 }
 
 impl GroupParts {
-    fn add(&mut self, response: &WaveResponse, contact: usize, (amplitude, multiple): (f64, u32)) {
+    fn add(&mut self, wave: &ActingWave<'_>, contact: usize, multiple: u32) {
+        let response = wave.response;
+        let [slip_amplitude, load_amplitude] = wave.amplitudes(contact);
+        let own = usize::from(wave.borne_by == Some(contact));
         let phase = response.wave.phase;
         match &response.shape {
             WaveShape::Polynomials(contacts) => {
                 let [slip, load] = &contacts[contact];
                 let harmonic = multiple * response.wave.waveform.cycles();
                 // Friction is μ(v − s), and the slip is v + a.
-                let (wave, negative) = (FastWave::Response(slip.clone()), -amplitude);
-                self.slip_terms.push(SlipTerm { wave, amplitude: negative, harmonic, phase });
-                let wave = LoadWave::Response(load.clone());
+                let (wave, amplitude) = (FastWave::Response(slip.clone()), -slip_amplitude);
+                self.slip_terms[own].push(SlipTerm { wave, amplitude, harmonic, phase });
+                let (wave, amplitude) = (LoadWave::Response(load.clone()), load_amplitude);
                 if wave.peak() > 0.0 {
                     self.load_terms.push(LoadTerm { wave, amplitude, harmonic, phase });
                 }
@@ -354,31 +433,35 @@ impl GroupParts {
                 for (n, coefficient, contacts) in harmonics {
                     let ContactResponse { slip, load } = contacts[contact];
                     // A(b sin nθ + c cos nθ) is the real part of −iA(b + ic) e^{inθ}.
-                    let turned =
-                        Complex64::from_polar(amplitude, f64::from(*n) * phase) * coefficient;
+                    let turned = Complex64::from_polar(1.0, f64::from(*n) * phase) * coefficient;
                     let input = -Complex64::I * turned;
                     let sum = self.harmonics.entry(n * multiple).or_default();
-                    sum[0] += input * slip;
-                    sum[1] += input * load;
+                    sum[own] += input * slip_amplitude * slip;
+                    sum[2] += input * load_amplitude * load;
                 }
             }
         }
     }
 
-    fn motion(self, normal_load: f64) -> PeriodicMotion {
-        let Self { slip_terms: mut tangential, load_terms: mut load, harmonics } = self;
+    fn motion(self, normal_load: f64, distortion: f64) -> PeriodicMotion {
+        let Self { slip_terms: [mut tangential, mut normal], load_terms: mut load, harmonics } =
+            self;
         let size = quell_numerics::eigen::modulus;
         let largest = |part: usize| harmonics.values().fold(0.0, |m: f64, z| m.max(size(z[part])));
-        let least = [0, 1].map(|part| SMALLEST_HARMONIC * largest(part));
-        for (&harmonic, [slip, fast_load]) in &harmonics {
-            let amplitude = size(*slip);
-            if amplitude > least[0] {
-                // s = −|a| cos(θ + arg a), and the integral of a sine is −cos.
-                let wave = FastWave::Integral(Waveform::Sine);
-                tangential.push(SlipTerm { wave, amplitude, harmonic, phase: slip.arg() });
+        let least = [0, 1, 2].map(|part| SMALLEST_HARMONIC * largest(part));
+        for (&harmonic, [slip, own, fast_load]) in &harmonics {
+            for (slip, least, terms) in
+                [(slip, least[0], &mut tangential), (own, least[1], &mut normal)]
+            {
+                let amplitude = size(*slip);
+                if amplitude > least {
+                    // s = −|a| cos(θ + arg a), and the integral of a sine is −cos.
+                    let wave = FastWave::Integral(Waveform::Sine);
+                    terms.push(SlipTerm { wave, amplitude, harmonic, phase: slip.arg() });
+                }
             }
             let amplitude = size(*fast_load);
-            if amplitude > least[1] {
+            if amplitude > least[2] {
                 let phase = fast_load.arg() + FRAC_PI_2;
                 let wave = LoadWave::Waveform(Waveform::Sine);
                 load.push(LoadTerm { wave, amplitude, harmonic, phase });
@@ -387,7 +470,8 @@ impl GroupParts {
         for term in &mut load {
             term.amplitude /= normal_load;
         }
-        PeriodicMotion { tangential, load, ..PeriodicMotion::default() }
+        let distortion = if normal.is_empty() { 0.0 } else { distortion };
+        PeriodicMotion { tangential, normal, distortion, load, load_is_slope: false }
     }
 }
 
@@ -406,7 +490,24 @@ struct ContactMotion {
 }
 
 impl ContactMotion {
-    fn new(groups: Vec<PeriodicMotion>, noise: NoiseMoments, normal_load: f64) -> Self {
+    fn new(contact: usize, acting: &[ActingWave<'_>], normal_load: f64, distortion: f64) -> Self {
+        let mut noise = NoiseMoments::default();
+        for wave in acting {
+            noise.add(wave, contact);
+        }
+        let (periodic, frequencies): (Vec<&ActingWave<'_>>, Vec<f64>) =
+            acting.iter().filter_map(|wave| Some((wave, wave.response.repetition()?))).unzip();
+        let groups = commensurate_groups(&frequencies).into_iter().map(|members| {
+            let mut parts = GroupParts::default();
+            for (index, multiple) in members {
+                parts.add(periodic[index], contact, multiple);
+            }
+            parts.motion(normal_load, distortion)
+        });
+        Self::of(groups.collect(), noise, normal_load)
+    }
+
+    fn of(groups: Vec<PeriodicMotion>, noise: NoiseMoments, normal_load: f64) -> Self {
         let loads = groups.iter().flat_map(|group| &group.load);
         let peaks = loads.map(|term| term.amplitude.abs() * term.wave.peak());
         let periodic_load = normal_load * peaks.sum::<f64>();
@@ -421,24 +522,28 @@ impl ContactMotion {
         Self { whole, slip, periodic_load, load_amplitude, covariance, normal_load }
     }
 
+    /// Whether the contact has fast slip.
+    fn moves(&self) -> bool {
+        !self.slip.groups().is_empty() || self.slip.noise() > 0.0
+    }
+
     fn slip_amplitude(&self) -> Result<f64, AveragingError> {
         let [low, high] = self.slip.slip_range()?;
         Ok(high.max(-low))
     }
 
     /// Mean friction as a function of the load.
-    fn line(&self, contact: &Contact) -> Result<FrictionLine, NoAverage> {
-        let undithered = FrictionLine::of(contact)?;
-        if self.slip.groups().is_empty() && self.slip.noise() == 0.0 {
-            return Ok(undithered);
+    fn line(&self, contact: &Contact) -> Result<FrictionLine, AveragingError> {
+        if !self.moves() {
+            return Ok(FrictionLine::of(contact)?);
         }
-        let velocity = contact.surface_velocity.mean();
+        let velocity = self.slip.at_corner(contact.surface_velocity.mean())?;
         let mean = effective(&contact.friction, &self.slip, velocity)?;
         let mut line = FrictionLine {
             coefficient: mean.coefficient,
-            constant: 0.0,
             slope: mean.slope,
-            slope_constant: 0.0,
+            one_sided: mean.side == SlopeSide::Outer,
+            ..FrictionLine::NONE
         };
         if self.periodic_load > 0.0 {
             let (level, slope) =

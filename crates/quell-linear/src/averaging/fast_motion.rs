@@ -10,6 +10,9 @@ use super::wave::FastWave;
 /// Standard deviations of a Gaussian velocity that count as its range: it is beyond them for 6·10⁻⁵ of the time.
 pub(super) const REACH: f64 = 4.0;
 
+/// Relative difference of two velocities that are the same up to the rounding of both.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// Fast motion: groups of incommensurate frequencies, each periodic, and a Gaussian velocity that is independent of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FastMotion {
@@ -100,6 +103,20 @@ impl FastMotion {
             sums.dedup();
         }
         Ok(sums)
+    }
+
+    /// A slow slip velocity, or the fast velocity that it equals up to the rounding of both (of an amplitude ratio D/R, for instance):
+    /// next to it the inner slope grows like the inverse root of the distance, and would be the rounding of that distance.
+    ///
+    /// # Errors
+    /// A quadrature that did not converge.
+    pub(super) fn at_corner(&self, v: f64) -> Result<f64, AveragingError> {
+        if self.noise > 0.0 {
+            return Ok(v);
+        }
+        let [low, high] = self.slip_range()?;
+        let corner = if v < 0.0 { low } else { high };
+        Ok(if (v - corner).abs() <= ROUNDING * corner.abs() { corner } else { v })
     }
 
     /// Largest fast slip velocity, max s summed over the groups.

@@ -4,7 +4,7 @@
 //! unstable iff 2ζ + Fμ̄′(v₀) < 0 (2.26).
 //!
 //! ```
-//! use quell_linear::averaging::{AveragingOptions, CrossingKind, FastResponse, critical_amplitudes};
+//! use quell_linear::averaging::{Averaging, CrossingKind, critical_amplitudes};
 //! use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 //!
 //! let law = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2])?;
@@ -18,8 +18,7 @@
 //! };
 //! let belt = Belt::new(0.005, 1.0, 1.0, law, vec![dither])?;
 //! // Dither destabilises between a root of the criterion and its jump, where the fast velocity reaches the belt velocity.
-//! let options = AveragingOptions { response: FastResponse::Oscillator, ..Default::default() };
-//! let critical = critical_amplitudes(&belt, options).expect("one dither");
+//! let critical = critical_amplitudes(&belt, Averaging::FiniteR).expect("one dither");
 //! assert!((critical[0].amplitude - 4.322392).abs() < 1e-6); // exact: 4.322393
 //! assert!((critical[1].amplitude - 9.9).abs() < 1e-12 && critical[1].crossing == CrossingKind::Jump);
 //! # Ok::<(), quell_model::InvalidValues>(())
@@ -29,7 +28,8 @@
 //! |---|---|
 //! | `wave` | shape of the fast velocity of one dither: G, or the oscillator's own response |
 //! | `periodic_motion`, `fast_motion` | fast slip and load of one period, and of groups of incommensurate frequencies |
-//! | `dithers` | the fast motion of a belt's dithers, grouped by frequency |
+//! | `dithers` | the fast motion of a belt's dithers in the limit of high frequency, grouped by frequency |
+//! | `belt_averages` | the averaged law of a belt at one slow slip velocity and any amplitude |
 //! | `effective`, `error` | μ̄ and its frozen slope with their error bounds, or why they have no value |
 //! | `stribeck`, `decreasing` | closed forms for one law |
 //! | `single_wave`, `periodic`, `independent` | any law under one shape, a periodic sum, several frequencies |
@@ -45,6 +45,7 @@
 //! | `sign_changes` | every change of sign of a function on a grid |
 
 mod averaged_law;
+mod belt_averages;
 mod criterion;
 mod critical_amplitudes;
 mod decreasing;
@@ -57,11 +58,9 @@ mod everywhere_stable;
 mod everywhere_stable_noise;
 mod fast_inputs;
 mod fast_motion;
-mod finite_r;
 mod gaussian;
 mod independent;
 mod mean_friction;
-mod no_average;
 mod periodic;
 mod periodic_motion;
 mod pieces;
@@ -80,7 +79,7 @@ pub use critical_amplitudes::{
 };
 pub use describing::{DescribedCycle, DescribingFunction, EquivalentGain};
 pub(crate) use dithers::commensurate_groups;
-pub use dithers::{AveragingOptions, FastResponse, MAX_HARMONIC, NormalOrder, fast_wave};
+pub use dithers::{Averaging, MAX_HARMONIC};
 pub use edges::{
     CriticalVelocity, NoBand, UnstableBand, closed_band, undithered_critical_velocity,
     unstable_bands,
@@ -94,7 +93,6 @@ pub use fast_motion::FastMotion;
 pub use gaussian::effective_under_noise_by_quadrature;
 pub use independent::MAX_GROUPS;
 pub use mean_friction::effective;
-pub use no_average::{MOST_FREQUENCIES, NoAverage};
 pub use periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
 pub use sign_changes::CrossingKind;
 pub(crate) use sign_changes::{SignChange, sign_changes};

@@ -93,6 +93,9 @@ pub struct PeriodicMotion {
     pub distortion: f64,
     /// Fast part of the normal load divided by F.
     pub load: Vec<LoadTerm>,
+    /// Whether the load is the derivative of the slip `normal` up to a factor, as it is without damping and stiffness: the two are
+    /// then uncorrelated.
+    pub load_is_slope: bool,
 }
 
 impl PeriodicMotion {
@@ -100,8 +103,7 @@ impl PeriodicMotion {
     pub(super) fn single_term(&self) -> Option<(&FastWave, f64)> {
         let only = match (self.tangential.as_slice(), self.normal.as_slice()) {
             ([term], []) if self.load.is_empty() => Some(term),
-            // The load of a single normal dither is the derivative of its slip: they are uncorrelated.
-            ([], [term]) if self.distortion == 0.0 => Some(term),
+            ([], [term]) if self.distortion == 0.0 && !self.has_correlated_load() => Some(term),
             _ => None,
         };
         only.filter(|term| term.wave.is_symmetric()).map(|term| (&term.wave, term.amplitude))
@@ -111,7 +113,7 @@ impl PeriodicMotion {
     pub(super) fn single_polynomial(&self) -> Option<(&FastWave, f64)> {
         let only = match (self.tangential.as_slice(), self.normal.as_slice()) {
             ([term], []) if self.load.is_empty() => term,
-            ([], [term]) if self.distortion == 0.0 => term,
+            ([], [term]) if self.distortion == 0.0 && !self.has_correlated_load() => term,
             _ => return None,
         };
         match &only.wave {
@@ -124,9 +126,9 @@ impl PeriodicMotion {
 
     /// Whether load and slip of the group can be correlated.
     ///
-    /// Without tangential dither they cannot: the load is dS/dθ up to a factor, and ⟨f(S) dS/dθ⟩ = 0.
+    /// Where the load is dS/dθ up to a factor they cannot without tangential dither: ⟨f(S) dS/dθ⟩ = 0.
     pub(super) fn has_correlated_load(&self) -> bool {
-        !self.load.is_empty() && !self.tangential.is_empty()
+        !(self.load.is_empty() || self.load_is_slope && self.tangential.is_empty())
     }
 
     /// ν(θ).

@@ -9,23 +9,27 @@
 //! Sines and sums of harmonics enter by their harmonics, every other periodic waveform by its periodic response, piece by piece
 //! ([`crate::periodic_response`]). Both are exact. Noise enters by the moments of its lines: the fast slip and load are Gaussian, with
 //! the variances and the covariance of the sums over the lines.
+//!
+//! The load that a contact without a normal row bears by itself moves it through friction. That motion is driven by the mean friction
+//! under the other dithers, and carried to second order, as of the mass above its resonance (4.23): s = S − (μ′/2μ)(S² − ⟨S²⟩).
 
 use num_complex::Complex64;
 use quell_model::profile::Wave;
-use quell_model::system::{Input, InputTarget};
+use quell_model::system::{Contact, Input, InputTarget, Mechanical};
 use quell_model::waveform::NoiseLine;
 use quell_model::{System, Waveform};
-use quell_numerics::eigen::EigenError;
+use quell_numerics::eigen::{EigenError, modulus};
+use quell_numerics::matrix::Matrix;
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
+use super::error::AveragingError;
 use super::fast_inputs::{DitheredContact, FastInputs, WaveResponse, WaveShape};
-use super::no_average::NoAverage;
 use crate::growth::Growth;
 use crate::harmonic::{self, ContactResponse, DrivenEquations};
 use crate::linearised::{FrictionSlopes, Linearised};
 use crate::periodic_response::ResponseToWave;
 use crate::spectrum::{self, MotionSpectrum};
-use crate::steady::{NoSteadySliding, SteadySliding};
+use crate::steady::{FrictionLine, NoSteadySliding, SteadySliding};
 
 /// Averaged steady sliding with its linear equations.
 #[derive(Clone, Debug)]
@@ -68,26 +72,29 @@ impl<'a> DitheredSystem<'a> {
     /// Prepares a system.
     ///
     /// # Errors
-    /// [`NoAverage`] without steady sliding, at an undamped resonance, for more than [`super::MOST_FREQUENCIES`], and for a factor on
+    /// [`AveragingError`] without steady sliding, at an undamped resonance, for more than [`super::MAX_GROUPS`], and for a factor on
     /// friction.
-    pub fn new(system: &'a System) -> Result<Self, NoAverage> {
+    pub fn new(system: &'a System) -> Result<Self, AveragingError> {
         let is_factor = |input: &Input| {
             matches!(input.target, InputTarget::Friction { .. })
                 && !input.profile.waves().is_empty()
         };
         if system.inputs.iter().any(is_factor) {
-            return Err(NoAverage::FrictionFactor);
+            return Err(AveragingError::FrictionFactor);
         }
         Self::with_fast_motion(system)
     }
 
     /// As [`Self::new`] for the fast motion alone, which a factor on friction excites too.
-    pub(crate) fn with_fast_motion(system: &'a System) -> Result<Self, NoAverage> {
-        let sliding = Linearised::new(system)?;
+    pub(crate) fn with_fast_motion(system: &'a System) -> Result<Self, AveragingError> {
+        let sliding = sliding_under_dither(system)?;
+        let undamped = without_damper(system);
+        let about = undamped.as_ref().map(sliding_under_dither).transpose()?;
+        let moved = (undamped.as_ref().unwrap_or(system), about.as_ref().unwrap_or(&sliding));
         let mut waves = Vec::new();
         for (input, given) in system.inputs.iter().enumerate() {
             for wave in given.profile.waves().iter().cloned() {
-                waves.push(wave_response(system, &sliding, (input, &given.target), wave)?);
+                waves.push(wave_response(moved.0, moved.1, (input, &given.target), wave)?);
             }
         }
         Ok(Self { system, sliding, fast: FastInputs::of(waves)? })
@@ -111,8 +118,8 @@ impl<'a> DitheredSystem<'a> {
     /// Averaged sliding with the amplitudes of the system's inputs.
     ///
     /// # Errors
-    /// [`NoAverage`] if the mean friction has no value or no steady sliding remains.
-    pub fn average(&self) -> Result<AveragedSliding, NoAverage> {
+    /// [`AveragingError`] if the mean friction has no value or no steady sliding remains.
+    pub fn average(&self) -> Result<AveragedSliding, AveragingError> {
         self.average_with(None)
     }
 
@@ -124,7 +131,7 @@ impl<'a> DitheredSystem<'a> {
     pub fn average_with(
         &self,
         changed: Option<(usize, f64)>,
-    ) -> Result<AveragedSliding, NoAverage> {
+    ) -> Result<AveragedSliding, AveragingError> {
         let lines = self.fast.lines(self.system, changed)?;
         let steady = SteadySliding::with(self.system, &lines)?;
         let contacts = self.fast.contacts(self.system, &steady.contacts, changed)?;
@@ -137,7 +144,7 @@ impl<'a> DitheredSystem<'a> {
     ///
     /// # Errors
     /// As [`DitheredSystem::average`].
-    pub fn fast_state(&self) -> Result<Vec<f64>, NoAverage> {
+    pub fn fast_state(&self) -> Result<Vec<f64>, AveragingError> {
         let average = self.average()?;
         let n = average.linear.coordinates();
         let mut state = vec![0.0; self.system.structure.state_size()];
@@ -197,6 +204,49 @@ impl<'a> DitheredSystem<'a> {
     }
 }
 
+/// Steady sliding without dither; of surfaces at rest what it is under dither.
+fn sliding_under_dither(system: &System) -> Result<Linearised, AveragingError> {
+    match Linearised::new(system) {
+        Err(why @ NoSteadySliding::AtRest { .. }) => dithered_at_rest(system, why),
+        sliding => Ok(sliding?),
+    }
+}
+
+/// A structure of one coordinate without its damper, for the fast motion under dither above its resonance: at a stability boundary the
+/// damper cancels with the slope of friction, which the fast motion leaves out. Other structures keep their dampers.
+fn without_damper(system: &System) -> Option<System> {
+    let mechanical = system.structure.mechanical().filter(|one| one.by_speed().is_none())?;
+    if mechanical.size() != 1 {
+        return None;
+    }
+    let resonance = (mechanical.stiffness()[(0, 0)] / mechanical.mass().matrix()[(0, 0)]).sqrt();
+    let lowest = |wave: &Wave| match wave.waveform.noise() {
+        Some(_) => wave.frequency * wave.waveform.lowest_multiple(),
+        None => wave.frequency,
+    };
+    let slowest = system.waves().map(lowest).fold(f64::INFINITY, f64::min);
+    let undamped = Mechanical::new(
+        mechanical.coordinates().to_vec(),
+        mechanical.mass().clone(),
+        Matrix::zeros(1, 1),
+        mechanical.stiffness().clone(),
+    );
+    let structure = undamped.under(mechanical.force().to_vec()).into();
+    (slowest > resonance).then(|| System { structure, ..system.clone() })
+}
+
+/// A system with surfaces at rest, where the mean of friction vanishes if dither moves the contact; only of dither that is faster than
+/// every motion.
+fn dithered_at_rest(system: &System, why: NoSteadySliding) -> Result<Linearised, AveragingError> {
+    let line = |contact: &Contact| FrictionLine::of(contact).unwrap_or(FrictionLine::NONE);
+    let lines: Vec<FrictionLine> = system.contacts.iter().map(line).collect();
+    let sliding = Linearised::about(system, SteadySliding::with(system, &lines)?)?;
+    let motions = spectrum::spectrum(&sliding, &sliding.friction())?.motions;
+    let fastest = motions.iter().map(|motion| modulus(motion.eigenvalue)).fold(0.0, f64::max);
+    let slowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
+    if slowest > fastest { Ok(sliding) } else { Err(why.into()) }
+}
+
 /// The equations of the sliding structure under an input.
 fn driven(
     system: &System,
@@ -212,15 +262,15 @@ fn wave_response(
     sliding: &Linearised,
     (input, target): (usize, &InputTarget),
     wave: Wave,
-) -> Result<WaveResponse, NoAverage> {
+) -> Result<WaveResponse, AveragingError> {
     let at = |n: u32| {
         let frequency = f64::from(n) * wave.frequency;
         harmonic::response(system, sliding, target, frequency)
             .map(|response| response.contacts)
-            .ok_or(NoAverage::Resonance { frequency })
+            .ok_or(AveragingError::Resonance { frequency })
     };
     if let Some(known) = wave.waveform.harmonics() {
-        let harmonics: Result<Vec<_>, NoAverage> = known
+        let harmonics: Result<Vec<_>, AveragingError> = known
             .iter()
             .map(|h| Ok((h.order, Complex64::new(h.sine, h.cosine), at(h.order)?)))
             .collect();
@@ -236,9 +286,9 @@ fn wave_response(
             let frequency = line.ratio * wave.frequency;
             harmonic::response(system, sliding, target, frequency)
                 .map(|response| response.contacts)
-                .ok_or(NoAverage::Resonance { frequency })
+                .ok_or(AveragingError::Resonance { frequency })
         };
-        let lines: Result<Vec<_>, NoAverage> = noise.lines().iter().map(line).collect();
+        let lines: Result<Vec<_>, AveragingError> = noise.lines().iter().map(line).collect();
         return Ok(WaveResponse { input, wave, shape: WaveShape::Lines(lines?) });
     }
     let equations = driven(system, sliding, target)?;

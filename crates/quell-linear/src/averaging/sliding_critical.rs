@@ -9,8 +9,8 @@
 //! where they disagree, the growth rate is followed instead.
 
 use super::critical_amplitudes::Becomes;
+use super::error::AveragingError;
 use super::fast_inputs::{DitheredContact, FastInputs};
-use super::no_average::NoAverage;
 use super::sign_changes::{CrossingKind, SignChange, located, sign_changes};
 use super::sliding::DitheredSystem;
 use crate::critical_slopes::CriticalSlopes;
@@ -49,8 +49,8 @@ impl DitheredSystem<'_> {
     /// reach any contact.
     ///
     /// # Errors
-    /// [`NoAverage`] if a mean has no value.
-    pub fn critical_amplitudes(&self, input: usize) -> Result<Vec<CriticalInput>, NoAverage> {
+    /// [`AveragingError`] if a mean has no value.
+    pub fn critical_amplitudes(&self, input: usize) -> Result<Vec<CriticalInput>, AveragingError> {
         let corners = self.fast().corners(self.system(), input)?;
         let points = FastInputs::amplitudes(&corners);
         let changes = match self.changes_by_slope(input, &points, &corners)? {
@@ -60,7 +60,7 @@ impl DitheredSystem<'_> {
         let mut found = Vec::new();
         for change in changes {
             let amplitude = change.location;
-            let verdict = |distance: f64| -> Result<Verdict, NoAverage> {
+            let verdict = |distance: f64| -> Result<Verdict, AveragingError> {
                 let there = Some((input, amplitude * (1.0 + distance)));
                 Ok(self.average_with(there)?.growth()?.verdict())
             };
@@ -87,7 +87,7 @@ impl DitheredSystem<'_> {
     }
 
     /// The growth rate at an amplitude; 0 where it is 0 within its error.
-    fn growth_at(&self, input: usize, amplitude: f64) -> Result<f64, NoAverage> {
+    fn growth_at(&self, input: usize, amplitude: f64) -> Result<f64, AveragingError> {
         let growth = self.average_with(Some((input, amplitude)))?.growth()?;
         Ok(if growth.verdict() == Verdict::Undecided { 0.0 } else { growth.rate })
     }
@@ -99,10 +99,10 @@ impl DitheredSystem<'_> {
         input: usize,
         points: &[f64],
         corners: &[f64],
-    ) -> Result<Option<Vec<SignChange>>, NoAverage> {
+    ) -> Result<Option<Vec<SignChange>>, AveragingError> {
         let Some(critical) = CriticalSlopes::of(self.sliding()) else { return Ok(None) };
         let contact = &self.sliding().contacts()[0].steady;
-        let distance = |amplitude: f64| -> Result<f64, NoAverage> {
+        let distance = |amplitude: f64| -> Result<f64, AveragingError> {
             let line = self.fast().lines(self.system(), Some((input, amplitude)))?[0];
             Ok(critical.distance(contact.factor * line.slope_under(contact.normal_load)))
         };
@@ -124,7 +124,11 @@ impl DitheredSystem<'_> {
     }
 
     /// A change of the verdict where the growth rate changes its sign, next to a known one; `None` if it does not change there.
-    fn around(&self, input: usize, change: &SignChange) -> Result<Option<SignChange>, NoAverage> {
+    fn around(
+        &self,
+        input: usize,
+        change: &SignChange,
+    ) -> Result<Option<SignChange>, AveragingError> {
         let mut growth = |amplitude: f64| self.growth_at(input, amplitude);
         for within in WITHIN {
             let [below, above] = [-within, within].map(|share| change.location * (1.0 + share));

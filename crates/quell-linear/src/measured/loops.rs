@@ -8,7 +8,7 @@ use quell_numerics::matrix::Matrix;
 
 use super::no_verdict::{NoMeasuredVerdict, NoTurns};
 use super::receptance::Receptance;
-use crate::averaging::NoAverage;
+use crate::averaging::AveragingError;
 use crate::harmonic::ContactResponse;
 use crate::linearised::FrictionLine;
 use crate::steady::{NoSteadySliding, SteadyContact, mean_factor};
@@ -261,7 +261,7 @@ pub(super) fn response(
     let (determinant, forces) =
         eliminate(loop_matrix(system, receptance, contacts, frequency, false), right);
     if determinant == Complex64::ZERO {
-        return Err(NoAverage::Resonance { frequency }.into());
+        return Err(AveragingError::Resonance { frequency }.into());
     }
     let s = Complex64::new(0.0, frequency);
     let moved = |index: usize| {

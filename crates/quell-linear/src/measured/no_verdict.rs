@@ -2,14 +2,14 @@
 
 use quell_model::digits::digits;
 
-use crate::averaging::NoAverage;
+use crate::averaging::AveragingError;
 use crate::steady::NoSteadySliding;
 
 /// Why there is no verdict on a measured structure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoMeasuredVerdict {
     /// No steady sliding, or no average.
-    NoAverage(NoAverage),
+    NoAverage(AveragingError),
     /// The determinant does not decide.
     NoTurns(NoTurns),
     /// A dither is not a sine, whose harmonics would have to be measured.
@@ -42,8 +42,8 @@ impl std::fmt::Display for NoMeasuredVerdict {
 
 impl std::error::Error for NoMeasuredVerdict {}
 
-impl From<NoAverage> for NoMeasuredVerdict {
-    fn from(why: NoAverage) -> Self {
+impl From<AveragingError> for NoMeasuredVerdict {
+    fn from(why: AveragingError) -> Self {
         Self::NoAverage(why)
     }
 }

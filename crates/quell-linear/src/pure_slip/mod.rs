@@ -18,7 +18,7 @@ use quell_numerics::extrapolation::{Unintegrated, integrate};
 use quell_numerics::matrix::Matrix;
 use quell_numerics::order::ascending;
 
-use crate::averaging::{DitheredSystem, NoAverage, commensurate_groups};
+use crate::averaging::{AveragingError, DitheredSystem, commensurate_groups};
 use crate::growth::Growth;
 use crate::steady::NoSteadySliding;
 use equations::PureSlip;
@@ -42,7 +42,7 @@ const CLOSED: f64 = 1e-13;
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoPureSlip {
     /// There is no steady sliding without dither, or no fast response.
-    NoAverage(NoAverage),
+    NoAverage(AveragingError),
     /// The dithers have no common period.
     NoPeriod,
     /// The slip at a contact comes to rest or reverses.
@@ -84,8 +84,8 @@ impl std::fmt::Display for NoPureSlip {
 
 impl std::error::Error for NoPureSlip {}
 
-impl From<NoAverage> for NoPureSlip {
-    fn from(why: NoAverage) -> Self {
+impl From<AveragingError> for NoPureSlip {
+    fn from(why: AveragingError) -> Self {
         Self::NoAverage(why)
     }
 }

@@ -45,6 +45,14 @@ impl OneMass {
         self.rate
     }
 
+    /// An amplitude of an input over that of its dither of the belt.
+    pub fn amplitude(&self, target: &InputTarget) -> f64 {
+        match target {
+            InputTarget::Force(row) => (self.force * self.tangent / row[0]).abs(),
+            InputTarget::NormalLoad { .. } | InputTarget::Friction { .. } => self.force,
+        }
+    }
+
     /// A force of the system over one of the belt.
     pub fn force(&self) -> f64 {
         self.force
@@ -84,9 +92,20 @@ impl System {
     /// The belt that a system is: one coordinate with mass, spring and damper, one rigid contact under a prescribed load on a surface of
     /// constant velocity v ≥ 0, and periodic or noisy forces and loads. `None` for every other system, and for loads that vanish.
     pub fn one_mass(&self) -> Option<OneMass> {
+        let simulated = |one: &OneMass| {
+            let belt = &one.belt;
+            belt.friction.static_coefficient() >= LEAST_COEFFICIENT && belt.unsimulated().is_none()
+        };
+        let is_rigid = self.contacts.iter().all(|contact| !contact.has_state());
+        self.one_averaged_mass().filter(|one| is_rigid && simulated(one))
+    }
+
+    /// The same for averages, which a state of the contact and a law that is not analytic at rest do not keep from having a value: the
+    /// contact as a rigid one.
+    pub fn one_averaged_mass(&self) -> Option<OneMass> {
         let mechanical = self.structure.mechanical().filter(|one| one.by_speed().is_none())?;
         let [contact] = &self.contacts[..] else { return None };
-        if mechanical.size() != 1 || !is_rigid(contact) {
+        if mechanical.size() != 1 || !is_steady(contact) {
             return None;
         }
         let tangent = *contact.tangent.as_ref()?.first()?;
@@ -122,19 +141,16 @@ impl System {
             && belt.belt_velocity >= 0.0
             && belt.normal_load.is_finite()
             && belt.normal_load > 0.0
-            && belt.total_amplitude(Direction::Normal) <= belt.normal_load
-            && belt.friction.static_coefficient() >= LEAST_COEFFICIENT
-            && belt.unsimulated().is_none();
+            && belt.total_amplitude(Direction::Normal) <= belt.normal_load;
         let (shift, Units { rate, force, .. }) = (push / units.force, units);
         (valid && shift.is_finite()).then_some(OneMass { belt, rate, tangent, force, shift })
     }
 }
 
-/// Whether a contact is as that of a belt: without a state, its load and its surface constant.
-fn is_rigid(contact: &Contact) -> bool {
+/// Whether a contact is as that of a belt, its load and its surface constant.
+fn is_steady(contact: &Contact) -> bool {
     let surface = &contact.surface_velocity;
-    !contact.has_state()
-        && contact.force.is_none()
+    contact.force.is_none()
         && contact.normal.is_none()
         && contact.slope.is_none()
         && contact.varying_load.is_none()

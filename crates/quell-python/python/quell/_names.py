@@ -18,8 +18,8 @@ IRREGULAR = {"axes": "axis", "bases": "basis", "matrices": "matrix", "indices": 
 
 
 def singular(name: str) -> str:
-    """The singular of a name whose last word is a plural; a singular stays: ``unstable_belt_velocities`` has entries
-    ``unstable_belt_velocity``, and ``hysteresis`` stays.
+    """The singular of a name whose last word is a plural; a singular stays: ``unstable_surface_velocities`` has entries
+    ``unstable_surface_velocity``, and ``hysteresis`` stays.
     """
     before, line, word = name.rpartition("_")
     start = before + line

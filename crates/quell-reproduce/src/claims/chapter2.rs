@@ -3,8 +3,8 @@
 use quell_dynamics::response::{SUPPRESSED, Solver, respond};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_linear::averaging::{
-    AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastResponse, FastWave,
-    closed_band, critical_amplitudes, everywhere_stable_amplitude,
+    Averaging, Becomes, CriticalAmplitude, EverywhereStable, FastWave, closed_band,
+    critical_amplitudes, everywhere_stable_amplitude,
 };
 use quell_model::parameter::MINIMUM_COEFFICIENT;
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
@@ -67,10 +67,9 @@ pub(super) fn partial(residual_vibration: f64) -> bool {
 /// Critical amplitudes by averaging, with αG or the exact fast motion.
 pub(super) fn critical(
     belt: &Belt,
-    response: FastResponse,
+    averaging: Averaging,
 ) -> Result<Vec<CriticalAmplitude>, Failure> {
-    let options = AveragingOptions { response, ..AveragingOptions::default() };
-    critical_amplitudes(belt, options).map_err(|error| failed("claims", &error))
+    critical_amplitudes(belt, averaging).map_err(|error| failed("claims", &error))
 }
 
 /// Fundamental frequency of the undithered stick-slip vibration, from the exact times at which the mass sticks.
@@ -279,7 +278,7 @@ pub(super) fn stribeck_map(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let mut worst: f64 = 0.0;
     for k in 1..=16 {
         let v = tip * f64::from(k) / 17.0;
-        let found = critical(&belt_at(LawKind::Stribeck, v)?, FastResponse::Limit)?;
+        let found = critical(&belt_at(LawKind::Stribeck, v)?, Averaging::Limit)?;
         let star = found.last().map_or(f64::MAX, |change| change.amplitude_ratio);
         worst = worst.max((star / v - 1.0).abs());
     }
@@ -296,7 +295,7 @@ pub(super) fn stribeck_map(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let mut destabilised = 0;
     for k in 1..=50 {
         let belt = belt_at(LawKind::Stribeck, 0.006 * f64::from(k))?;
-        let found = critical(&belt, FastResponse::Limit)?;
+        let found = critical(&belt, Averaging::Limit)?;
         destabilised += u8::from(found.iter().any(|change| change.becomes == Becomes::Unstable));
     }
     let measured = format!("dither destabilises at {destabilised} of 50 belt velocities up to 0.3");
@@ -315,7 +314,7 @@ pub(super) fn decreasing_map(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         .note("only locally, see 2.7-undithered-from-afar");
     let mut widths = Vec::new();
     for v in [1.0, 1.5, 2.0] {
-        let found = critical(&belt_at(LawKind::Decreasing, v)?, FastResponse::Limit)?;
+        let found = critical(&belt_at(LawKind::Decreasing, v)?, Averaging::Limit)?;
         widths
             .extend(found.windows(2).map(|pair| pair[1].amplitude_ratio - pair[0].amplitude_ratio));
     }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use quell_dynamics::response::SUPPRESSED;
 use quell_linear::averaging::{
-    EverywhereStable, FastMotion, FastResponse, FastWave, effective, everywhere_stable_amplitude,
+    Averaging, EverywhereStable, FastMotion, FastWave, effective, everywhere_stable_amplitude,
 };
 use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
@@ -186,9 +186,9 @@ pub(super) fn thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             1.0,
             Some((Direction::Tangential, waveform.clone(), 1.0, 10.0)),
         )?;
-        let found = critical(&belt, FastResponse::Limit)?;
+        let found = critical(&belt, Averaging::Limit)?;
         let finite_r =
-            critical(&belt, FastResponse::Oscillator)?.get(which).map(|change| change.amplitude);
+            critical(&belt, Averaging::FiniteR)?.get(which).map(|change| change.amplitude);
         let becomes = ["unstable", "stable again"][which];
         let (symbol, suffix) = if is_ratio { ("α", "-ratio") } else { ("D_T", "") };
         let value = found
@@ -216,7 +216,7 @@ pub(super) fn destabilising_ranges(sheet: &mut ClaimSheet) -> Result<(), Failure
     for waveform in [Waveform::Square, Waveform::Sine, Waveform::Triangle] {
         let dither = Some((Direction::Tangential, waveform, 1.0, 10.0));
         let belt = belt(LawKind::Decreasing, LIGHT, 1.0, dither)?;
-        let found = critical(&belt, FastResponse::Oscillator)?;
+        let found = critical(&belt, Averaging::FiniteR)?;
         ranges.push([0, 1].map(|k: usize| found.get(k).map_or(f64::NAN, |one| one.amplitude)));
     }
     let ordered = |value: fn(&[f64; 2]) -> f64| {

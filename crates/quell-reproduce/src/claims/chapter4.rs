@@ -2,8 +2,7 @@
 
 use quell_dynamics::response::{SUPPRESSED, steady_effective_friction};
 use quell_linear::averaging::{
-    AveragingOptions, EverywhereStable, FastResponse, FastWave, criterion,
-    everywhere_stable_amplitude, unstable_bands,
+    Averaging, EverywhereStable, FastWave, criterion, everywhere_stable_amplitude, unstable_bands,
 };
 use quell_model::{Belt, Direction, LawKind, Waveform};
 
@@ -259,7 +258,7 @@ pub(super) fn stability_maps(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         0.075,
         Some((Direction::Normal, Waveform::Square, 0.5, 5.0)),
     )?;
-    let undithered = criterion(&belt.undithered(), AveragingOptions::default())
+    let undithered = criterion(&belt.undithered(), Averaging::Limit)
         .map_err(|error| failed("claims", &error))?
         .value;
     sheet
@@ -274,7 +273,7 @@ pub(super) fn stability_maps(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             undithered > 0.0,
         )
         .note("by a small margin: it would be unstable with ζ = 0.19 or μ_m = 0.2587");
-    let found = critical(&belt, FastResponse::Limit)?;
+    let found = critical(&belt, Averaging::Limit)?;
     for (which, ratio, amplitude) in [(0, "0.115", "0.575"), (1, "0.13", "0.65")] {
         let becomes = ["unstable", "stable"][which];
         let found = found.get(which).map(|change| change.amplitude_ratio);
@@ -346,8 +345,8 @@ pub(super) fn formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         0.1,
         Some((Direction::Normal, Waveform::Triangle, alpha, 1.0)),
     )?;
-    let bands = unstable_bands(&belt, AveragingOptions::default())
-        .map_err(|error| failed("claims", &error))?;
+    let bands =
+        unstable_bands(&belt, Averaging::Limit).map_err(|error| failed("claims", &error))?;
     let right = bands.last().and_then(|band| band.upper).unwrap_or(f64::NAN);
     // The printed equation is implicit in v₀: v₀ = edge(μ(v₀)α_N), a contraction.
     let printed = (0..200).fold(right, |v, _| {

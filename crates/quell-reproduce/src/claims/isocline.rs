@@ -9,7 +9,7 @@ use quell_dynamics::response::{
     Observables, ResponseCase, SUPPRESSED, Solver, amplitude_at_residual_vibration, compare_many,
 };
 use quell_dynamics::simulation::Start;
-use quell_linear::averaging::{Becomes, FastResponse};
+use quell_linear::averaging::{Averaging, Becomes};
 use quell_model::{Direction, LawKind, Waveform};
 
 use super::super::failure::failed;
@@ -63,7 +63,7 @@ fn crossings(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<Crossi
             // This amplitude is ignored: both methods set it.
             let dither = (direction, waveform.clone(), 0.5, ratio);
             let belt = belt(kind, LIGHT, velocity, Some(dither))?;
-            let amplitude = critical(&belt, FastResponse::Limit)?
+            let amplitude = critical(&belt, Averaging::Limit)?
                 .into_iter()
                 .find(|found| found.becomes == Becomes::Stable)
                 .ok_or_else(|| missing("no averaged threshold"))?
@@ -351,7 +351,7 @@ fn deviation(contours: &ContourFigure, level: f64) -> Result<f64, Failure> {
     for &ratio in contours.isocline_ratios {
         let dither = (contours.direction, Waveform::Sine, 0.5, ratio);
         let belt = belt(contours.law, LIGHT, 0.05, Some(dither))?;
-        let threshold = critical(&belt, FastResponse::Limit)?
+        let threshold = critical(&belt, Averaging::Limit)?
             .into_iter()
             .find(|found| found.becomes == Becomes::Stable)
             .ok_or_else(|| failed("claims", &"no averaged threshold"))?

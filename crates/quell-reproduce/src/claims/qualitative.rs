@@ -6,9 +6,7 @@ use quell::parallel::Parallel;
 use quell_dynamics::attractor::AttractorSettings;
 use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::Start;
-use quell_linear::averaging::{
-    Becomes, FastMotion, FastResponse, FastWave, closed_band, effective,
-};
+use quell_linear::averaging::{Averaging, Becomes, FastMotion, FastWave, closed_band, effective};
 use quell_model::waveform::Burst;
 use quell_model::{Belt, Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
@@ -109,7 +107,7 @@ pub(super) fn always_quenched(sheet: &mut ClaimSheet) -> Result<(), Failure> {
                 let dither = (Direction::Tangential, waveform.clone(), amplitude, ratio);
                 belt(LawKind::Decreasing, LIGHT, speed, Some(dither))
             };
-            let last = critical(&with(1.0)?, FastResponse::Limit)?.pop();
+            let last = critical(&with(1.0)?, Averaging::Limit)?.pop();
             let Some(last) = last.filter(|change| change.becomes == Becomes::Stable) else {
                 return Ok(f64::NAN);
             };
@@ -279,7 +277,7 @@ pub(super) fn lower_edge(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     // The edges are those of the product.
     for (v, direction) in [(0.05, Direction::Tangential), (0.05, Direction::Normal)] {
         let dither = Some((direction, Waveform::Sine, 0.01, 1.0));
-        let found = critical(&belt(LawKind::Stribeck, LIGHT, v, dither)?, FastResponse::Limit)?;
+        let found = critical(&belt(LawKind::Stribeck, LIGHT, v, dither)?, Averaging::Limit)?;
         let alpha = found.last().map_or(f64::NAN, |change| change.amplitude_ratio);
         let expected = match direction {
             Direction::Tangential => v,

@@ -1,6 +1,6 @@
 //! Claims about the thresholds of figures 2.7, 2.10 and 2.11 by averaging, and how the dissertation probably computed them.
 
-use quell_linear::averaging::{FastMotion, FastResponse, FastWave, effective};
+use quell_linear::averaging::{Averaging, FastMotion, FastWave, effective};
 use quell_model::{LawKind, Waveform};
 
 use super::super::failure::failed;
@@ -18,8 +18,8 @@ pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     ];
     for (velocity, which, figure, ratio, amplitude) in rows {
         let belt = belt_at(LawKind::Decreasing, velocity)?;
-        let found = critical(&belt, FastResponse::Limit)?.get(which).copied();
-        let finite_r = critical(&belt, FastResponse::Oscillator)?.get(which).copied();
+        let found = critical(&belt, Averaging::Limit)?.get(which).copied();
+        let finite_r = critical(&belt, Averaging::FiniteR)?.get(which).copied();
         let place = format!("Figures 2.7, {figure}");
         let becomes = ["unstable", "stable again"][which];
         let statement = format!("averaging, v₀ = {velocity}: {becomes} from");

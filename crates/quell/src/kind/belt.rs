@@ -13,7 +13,7 @@ use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
     actuator, atlas, basins, belt_system, bifurcation, describing, design, friction,
-    noise_response, orbit, probability, response, simulate, stability,
+    noise_response, orbit, probability, response, simulate,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -72,7 +72,7 @@ impl Verbs for BeltStudy {
     }
 
     fn stability(&self) -> Reply {
-        answer(self, Ok(stability::run(self)))
+        belt_system::described(self)?.stability()
     }
 
     fn simulate(&self, until: f64, options: simulate::Options) -> Reply {

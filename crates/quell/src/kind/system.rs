@@ -17,14 +17,13 @@ use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    actuator, design, exact, friction, measured, modes, reach, response, simulate, stability,
-    tracked,
+    actuator, design, exact, friction, measured, modes, reach, response, simulate, tracked,
 };
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
-    bifurcation, describing, found_attractor, noise_response, orbit, probability, ramp, thresholds,
-    waveforms, window,
+    bifurcation, describing, found_attractor, noise_response, orbit, probability, ramp, stability,
+    thresholds, waveforms, window,
 };
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;

@@ -1,37 +1,42 @@
-//! `stability`: averaged stability of steady sliding; eigenvalues or Floquet exponents of a disc.
+//! `stability`: small motions about steady sliding and averages; eigenvalues or Floquet exponents of a disc.
+
+use std::fmt::Write as _;
 
 use quell_disc::instability::GrowthShares;
-use quell_linear::growth::of_criterion;
+use quell_linear::averaging::UnstableBand;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
 use super::disc_units::in_units_of_study;
-use super::table::{TextTable, figure, figure_of, in_hertz, in_rpm};
+use super::system::{ListedMotion, motions};
+use super::table::{TextTable, figure, in_hertz, in_rpm};
 use crate::complaint::Failure;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc;
 use crate::run::disc::stability::DiscStability;
 use crate::run::stability::{
-    AveragedStability, BeltStability, DECIBELS, LOOKED_AT, SlopeSide, becomes, kind,
+    DECIBELS, LOOKED_AT, LimitStability, OneMassStability, SlidingStability, becomes, kind,
 };
-use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy};
+use crate::study::{DiscSetup, DiscStudy, SystemSetup, SystemStudy};
 
-impl Presented<BeltSetup> for BeltStability {
-    fn json(&self, study: &BeltStudy) -> Json {
+impl Presented<SystemSetup> for SlidingStability {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }
 
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
         Some(self.sentence(study))
     }
 
-    fn table(&self, study: &BeltStudy) -> String {
+    fn table(&self, study: &SystemStudy) -> String {
         table(study, self)
     }
 
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::stability(study, self)))
     }
 }
@@ -141,70 +146,134 @@ fn speed_in_words(study: &DiscStudy) -> String {
     format!("{} ω_ref{}{}", figure(speed), in_rpm(study, speed), along.unwrap_or_default())
 }
 
-fn table(study: &BeltStudy, done: &BeltStability) -> String {
-    let own = averaged(study, &done.averaged);
-    let Some(limit) = &done.limit else { return own };
-    format!(
-        "\nFinite-R averaging, with the oscillator's own response to the dither:\n{own}\n\
-         In the limit of high dither frequency:\n{}",
-        averaged(study, limit)
-    )
-}
-
-fn averaged(study: &BeltStudy, found: &AveragedStability) -> String {
-    let mut table = TextTable::new(study.scales());
-    table.word("verdict", found.verdict());
-    let value = found.criterion.as_ref().map(|criterion| criterion.value);
-    table.known("criterion 2ζ + Fμ̄′", Quantity::Ratio, value.map_err(ToString::to_string));
-    if let Ok(criterion) = &found.criterion {
-        table.number("  error", Quantity::Ratio, criterion.error);
-        table.rate("growth rate", of_criterion(criterion.value));
-        table.number("effective friction μ̄", Quantity::Ratio, criterion.effective.coefficient);
-        if criterion.effective.side == SlopeSide::Outer {
-            table.word("  one-sided", "the slope applies to slightly faster belts");
+fn table(study: &SystemStudy, done: &SlidingStability) -> String {
+    let upper = done.spectrum.motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
+    let mut text = motions(study.units(), ListedMotion::Damped, upper);
+    let with = |quantity: Quantity, value: f64| {
+        let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
+        format!("{}{unit}", figure(value))
+    };
+    for (contact, found) in study.system().contacts.iter().zip(&done.contacts) {
+        let _ = write!(
+            text,
+            "  contact {}: friction {}, normal load {}",
+            contact.name,
+            with(Quantity::Force, found.friction),
+            with(Quantity::Force, found.normal_load)
+        );
+        if let Some(dithered) = found.dithered {
+            let velocity = with(Quantity::Velocity, contact.surface_velocity.mean());
+            let slip = with(Quantity::Velocity, dithered.slip_amplitude);
+            let _ = write!(text, ", slip amplitude {slip} at the belt velocity {velocity}");
         }
+        text.push('\n');
     }
-    match &found.critical_amplitudes {
-        Ok(list) => {
-            for critical in list {
-                let label = format!("{} from α", becomes(critical.becomes));
-                table.number(&label, Quantity::Velocity, critical.amplitude_ratio);
-                table.number(
-                    &format!("  D, by a {}", kind(critical.crossing)),
-                    Quantity::Force,
-                    critical.amplitude,
-                );
-                if !critical.contact_stays_closed {
-                    table.word("  contact", "would open");
+    if let Some(dither) = &done.dither {
+        match &dither.critical {
+            Err(why) => {
+                let _ = writeln!(text, "  critical amplitudes: unknown: {why}");
+            }
+            Ok(critical) => {
+                for found in critical {
+                    let _ = writeln!(
+                        text,
+                        "  {} from the amplitude {} {}on ({}){}",
+                        becomes(found.becomes),
+                        with(Quantity::Force, found.amplitude),
+                        if study.system().inputs.len() > 1 { "of the first dither " } else { "" },
+                        kind(found.crossing),
+                        if found.contacts_stay_closed {
+                            ""
+                        } else {
+                            ", if every contact stayed closed"
+                        }
+                    );
                 }
             }
         }
-        Err(why) => table.word("critical amplitudes", &format!("unknown: {why}")),
     }
-    let label = "stable at every v₀ from α";
-    match &found.everywhere_stable {
-        Ok(ratio) => {
-            table.number(label, Quantity::Velocity, *ratio);
-            let rate = study.belt().dithers().first().map_or(0.0, |dither| dither.frequency_ratio);
-            table.number("  D", Quantity::Force, ratio * rate);
+    if let Some(one) = &done.one_mass {
+        put_one_mass(&mut text, one, &with);
+    }
+    text
+}
+
+/// What is known of one mass alone.
+fn put_one_mass(
+    text: &mut String,
+    one: &OneMassStability,
+    with: &impl Fn(Quantity, f64) -> String,
+) {
+    let _ = writeln!(text, "  criterion 2ζ + Fμ̄′: {}", figure(one.criterion));
+    if one.limit.is_some() {
+        put_everywhere_stable(text, (one, &one.everywhere_stable), with);
+    }
+    put_bands(text, &one.unstable_bands, with);
+    let Some(limit) = &one.limit else { return };
+    let _ = writeln!(text, "\nIn the limit of high dither frequency: {}", limit.verdict());
+    put_limit(text, (one, limit), with);
+}
+
+fn put_limit(
+    text: &mut String,
+    (one, limit): (&OneMassStability, &LimitStability),
+    with: &impl Fn(Quantity, f64) -> String,
+) {
+    match &limit.criterion {
+        Ok(criterion) => {
+            let _ = writeln!(text, "  criterion 2ζ + Fμ̄′: {}", figure(criterion.value));
         }
-        Err(why) => table.word(label, &format!("none: {why}")),
+        Err(why) => {
+            let _ = writeln!(text, "  criterion 2ζ + Fμ̄′: unknown: {why}");
+        }
     }
-    if let Ok(bands) = &found.unstable_bands {
-        let bands: Vec<String> = bands
-            .iter()
-            .map(|band| {
-                let lower = figure_of(study, Quantity::Velocity, band.lower);
-                match band.upper {
-                    Some(upper) => {
-                        format!("{lower} to {}", figure_of(study, Quantity::Velocity, upper))
-                    }
-                    None => format!("above {lower}, no upper end found {LOOKED_AT}"),
-                }
-            })
-            .collect();
-        let bands = if bands.is_empty() { "none".to_owned() } else { bands.join(", ") };
-        table.word("unstable belt velocities", &bands);
+    for critical in limit.critical_amplitudes.iter().flatten() {
+        let _ = writeln!(
+            text,
+            "  {} from the amplitude {} on ({}, α = {}){}",
+            becomes(critical.becomes),
+            with(Quantity::Force, one.amplitude() * critical.amplitude),
+            kind(critical.crossing),
+            with(Quantity::Velocity, critical.amplitude_ratio),
+            if critical.contact_stays_closed { "" } else { ", if the contact stayed closed" }
+        );
     }
-    table.text()
+    put_everywhere_stable(text, (one, &limit.everywhere_stable), with);
+    put_bands(text, &limit.unstable_bands, with);
+}
+
+/// The amplitude from which every surface velocity is stable.
+fn put_everywhere_stable(
+    text: &mut String,
+    (one, ratio): (&OneMassStability, &Result<f64, String>),
+    with: &impl Fn(Quantity, f64) -> String,
+) {
+    let label = "stable at every surface velocity";
+    let _ = match ratio {
+        Ok(ratio) => {
+            let amplitude = with(Quantity::Force, one.amplitude_of_ratio() * ratio);
+            let ratio = with(Quantity::Velocity, *ratio);
+            writeln!(text, "  {label} from the amplitude {amplitude} on (α = {ratio})")
+        }
+        Err(why) => writeln!(text, "  {label}: none: {why}"),
+    };
+}
+
+/// The unstable surface velocities.
+fn put_bands<E>(
+    text: &mut String,
+    bands: &Result<Vec<UnstableBand>, E>,
+    with: &impl Fn(Quantity, f64) -> String,
+) {
+    let Ok(bands) = bands else { return };
+    let words = bands.iter().map(|band| {
+        let lower = with(Quantity::Velocity, band.lower);
+        match band.upper {
+            Some(upper) => format!("{lower} to {}", with(Quantity::Velocity, upper)),
+            None => format!("above {lower}, no upper end found {LOOKED_AT}"),
+        }
+    });
+    let words: Vec<String> = words.collect();
+    let words = if words.is_empty() { "none".to_owned() } else { words.join(", ") };
+    let _ = writeln!(text, "  unstable surface velocities: {words}");
 }

@@ -1,7 +1,6 @@
 //! Short tables for people: label, value, unit, and the value in SI.
 
 use crate::quantity::unit_of;
-use crate::run::stability::DECIBELS;
 use crate::study::{BeltStudy, DiscStudy};
 use quell_model::units::{Quantity, Scales};
 
@@ -42,16 +41,6 @@ impl TextTable {
             Ok(value) => self.number(label, quantity, value),
             Err(why) => self.word(label, &format!("undefined: {why}")),
         }
-    }
-
-    /// A row of a growth rate per unit τ; in SI also per second and in decibels per second.
-    pub(super) fn rate(&mut self, label: &str, value: f64) {
-        let si = self.scales.map(|scales| {
-            let per_second = value * scales.angular_frequency();
-            format!("{} 1/s ({} dB/s)", figure(per_second), figure(DECIBELS * per_second))
-        });
-        let unit = "per unit τ".to_owned();
-        self.rows.push([label.to_owned(), figure(value), unit, si.unwrap_or_default()]);
     }
 
     /// A row of text.

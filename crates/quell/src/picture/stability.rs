@@ -1,56 +1,107 @@
-//! The stability criterion by averaging over the amplitude of the first dither.
+//! Stability: the criterion of one mass over the amplitude of the first dither, eigenvalues of other systems.
 
-use quell_linear::averaging::criterion;
+use quell_linear::averaging::{Averaging, criterion};
 use quell_model::units::Quantity;
 use quell_model::{Belt, Direction};
 
-use super::caption::caption;
+use super::caption::caption_of_system;
 use super::ruler::Ruler;
+use super::system::{frequency_axis, growth_axis};
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
-use crate::run::stability::BeltStability;
-use crate::study::BeltStudy;
+use crate::run::stability::{OneMassStability, SlidingStability, UnderDither};
+use crate::study::{SystemStudy, UnitSystem};
 
 /// Number of points of each interval between critical amplitudes.
 const POINTS: u32 = 160;
 
-/// The picture of stability by averaging: one curve over the amplitude, with gaps at its jumps. Without dither the criterion is
-/// a horizontal line.
-pub fn stability(study: &BeltStudy, done: &BeltStability) -> Figure {
-    let belt = study.belt();
-    let averaged = &done.averaged;
-    let critical: Vec<f64> =
-        averaged.critical_amplitudes.iter().flatten().map(|critical| critical.amplitude).collect();
+/// The criterion of one mass over the amplitude of its first dither; of another system, and without dither, its eigenvalues.
+pub fn stability(study: &SystemStudy, done: &SlidingStability) -> Figure {
+    match (&done.one_mass, &done.dither) {
+        (Some(one), Some(dither)) => of_one_mass(study, one, dither),
+        _ => eigenvalues(study, done),
+    }
+}
+
+/// One curve over the amplitude, with gaps at its jumps.
+fn of_one_mass(study: &SystemStudy, one: &OneMassStability, dither: &UnderDither) -> Figure {
+    let belt = one.belt();
+    let critical: Vec<f64> = dither
+        .critical
+        .iter()
+        .flatten()
+        .map(|critical| critical.amplitude / one.amplitude())
+        .collect();
     let own = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
     let end = last_amplitude(belt, critical.iter().copied().fold(own, f64::max));
-    let force = Ruler::new(study, Quantity::Force, end);
+    let force = Ruler::of_system(study, Quantity::Force, [one.amplitude() * end]);
+    let place = |amplitude: f64| force.place(one.amplitude() * amplitude);
     let value = |amplitude: f64| {
         let changed = belt.with_amplitude(0, amplitude).ok()?;
-        let found = criterion(&changed, averaged.options).ok()?;
-        Some((force.place(amplitude), found.value))
+        let found = criterion(&changed, Averaging::FiniteR).ok()?;
+        Some((place(amplitude), found.value))
     };
     let pieces = between(&critical, end, value);
     let vertical = upwards(&pieces);
-    let symbol = if study.scales().is_some() { "A" } else { "D" };
+    let symbol = if study.units() == UnitSystem::None { "D" } else { "A" };
     let mut panel =
-        Panel::new(force.axis("dither amplitude", symbol).between(0.0, force.place(end)), vertical)
+        Panel::new(force.axis("dither amplitude", symbol).between(0.0, place(end)), vertical)
             .with(Region::across_y(PlotRole::Unstable, f64::NEG_INFINITY, 0.0).label("unstable"))
             .with(ReferenceLine::horizontal(0.0));
-    if let Ok(found) = criterion(&belt.undithered(), averaged.options) {
-        let level = [(0.0, found.value), (force.place(end), found.value)];
+    if let Ok(found) = criterion(&belt.undithered(), Averaging::FiniteR) {
+        let level = [(0.0, found.value), (place(end), found.value)];
         panel = panel.with(Polyline::new(PlotRole::Undithered, level).label("without dither"));
     }
     panel = panel.with(Polyline::pieces(PlotRole::Averaged, pieces).label("averaged"));
-    let by = format!("by {}", done.method());
-    if let Some((place, value)) = value(own).filter(|_| !belt.dithers().is_empty()) {
+    if let Some((place, value)) = value(own) {
         let point =
             Points::new(PlotRole::Dithered, [(place, value)]).marker(Marker::Disc).size(7.0);
         panel = panel.with(point.label("this study"));
     }
     Figure::single(panel)
         .title(study.title().unwrap_or_default())
-        .caption(format!("{}; {by}.", caption(study)))
+        .caption(format!("{}; by finite-R averaging.", caption_of_system(study)))
+}
+
+/// Every eigenvalue in the complex plane; under dither those without it too.
+fn eigenvalues(study: &SystemStudy, done: &SlidingStability) -> Figure {
+    let (frequency, factor) = frequency_axis(study, "|Im λ|");
+    let places = |motions: &[quell_linear::spectrum::SmallMotion]| -> Vec<(f64, f64)> {
+        let upper = motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
+        upper.map(|motion| (motion.eigenvalue.re, factor * motion.frequency())).collect()
+    };
+    let own = places(&done.spectrum.motions);
+    let mut panel = Panel::new(growth_axis(study), frequency)
+        .with(Region::across_x(PlotRole::Unstable, 0.0, f64::INFINITY).label("unstable"))
+        .with(ReferenceLine::vertical(0.0));
+    if let Some(dither) = &done.dither {
+        let before = dither.undithered.as_ref().map(|found| places(&found.motions));
+        let before = before.unwrap_or_default();
+        panel = panel
+            .with(
+                Points::new(PlotRole::Undithered, before)
+                    .marker(Marker::Circle)
+                    .size(7.0)
+                    .label("without dither"),
+            )
+            .with(
+                Points::new(PlotRole::Dithered, own)
+                    .marker(Marker::Disc)
+                    .size(6.0)
+                    .label("averaged"),
+            );
+    } else {
+        panel = panel.with(
+            Points::new(PlotRole::Undithered, own)
+                .marker(Marker::Disc)
+                .size(6.0)
+                .label("linearised"),
+        );
+    }
+    Figure::single(panel)
+        .title(study.title().unwrap_or_default())
+        .caption("Eigenvalues of small motions about steady sliding.".to_owned())
 }
 
 /// Upper limit of the amplitude axis, beyond the largest relevant amplitude.

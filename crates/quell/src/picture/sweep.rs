@@ -4,7 +4,7 @@
 //! The stability boundaries by averaging are drawn on top if the plane contains them. Curves have gaps and maps are hatched
 //! where a number is unknown; the legend shows the reason.
 
-use quell_linear::averaging::{Becomes, FastResponse};
+use quell_linear::averaging::{Averaging, Becomes};
 use quell_numerics::order::ascending;
 
 use super::caption::{VariedNumber, caption_of, with_varied};
@@ -225,27 +225,29 @@ fn over(done: &FinishedMap) -> Vec<Layer> {
     let upwards = grid.axes().last() == Some(amplitude);
     let furthest = amplitude.values.iter().copied().fold(0.0, f64::max);
     let found = boundaries_at(grid, &to_the_frame(other));
-    let line = |response, becomes, label: &str| {
+    let line = |averaging, becomes, label: &str| {
         let points: Vec<Vec<(f64, f64)>> = found
             .iter()
-            .filter(|boundary| boundary.response == response && boundary.becomes == becomes)
+            .filter(|boundary| boundary.averaging == averaging && boundary.becomes == becomes)
             .map(|boundary| {
                 let inside = boundary.points.iter().filter(|point| point.1 <= 1.2 * furthest);
                 inside.map(|&(at, d)| if upwards { (at, d) } else { (d, at) }).collect()
             })
             .collect();
-        let (role, style) = match response {
-            FastResponse::Limit => (PlotRole::Averaged, LineStyle::DashDotted),
-            FastResponse::Oscillator => (PlotRole::Averaged, LineStyle::ShortDashed),
+        let (role, style) = match averaging {
+            Averaging::FiniteR => (PlotRole::Averaged, LineStyle::ShortDashed),
+            Averaging::Limit | Averaging::LimitToSecondOrder => {
+                (PlotRole::Averaged, LineStyle::DashDotted)
+            }
         };
         let any = points.iter().any(|piece: &Vec<_>| piece.len() > 1);
         any.then(|| Layer::from(Polyline::pieces(role, points).style(style).label(label)))
     };
     let averaged = [
-        line(FastResponse::Limit, Becomes::Stable, "quenches, by averaging"),
-        line(FastResponse::Oscillator, Becomes::Stable, "quenches, by finite-$R$ averaging"),
-        line(FastResponse::Limit, Becomes::Unstable, "destabilises, by averaging"),
-        line(FastResponse::Oscillator, Becomes::Unstable, "destabilises, by finite-$R$ averaging"),
+        line(Averaging::Limit, Becomes::Stable, "quenches, by averaging"),
+        line(Averaging::FiniteR, Becomes::Stable, "quenches, by finite-$R$ averaging"),
+        line(Averaging::Limit, Becomes::Unstable, "destabilises, by averaging"),
+        line(Averaging::FiniteR, Becomes::Unstable, "destabilises, by finite-$R$ averaging"),
     ];
     exact_curves(done).into_iter().chain(averaged.into_iter().flatten()).collect()
 }

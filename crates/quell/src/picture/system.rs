@@ -10,7 +10,6 @@ use crate::plot::{
     Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
 use crate::run::system::reach::Reaches;
-use crate::run::system::stability::SystemStability;
 use crate::run::system::tracked::TrackedStability;
 use crate::study::{SystemStudy, UnitSystem};
 
@@ -28,51 +27,12 @@ pub(super) fn frequency_axis(study: &SystemStudy, symbol: &str) -> (PlotAxis, f6
     }
 }
 
-fn growth_axis(study: &SystemStudy) -> PlotAxis {
+pub(super) fn growth_axis(study: &SystemStudy) -> PlotAxis {
     let axis = PlotAxis::new("growth rate").symbol("Re λ");
     match study.units() {
         UnitSystem::None => axis,
         _ => axis.unit("1/s"),
     }
-}
-
-/// Every eigenvalue in the complex plane; under dither those without it too.
-pub fn stability(study: &SystemStudy, done: &SystemStability) -> Figure {
-    let (frequency, factor) = frequency_axis(study, "|Im λ|");
-    let places = |motions: &[quell_linear::spectrum::SmallMotion]| -> Vec<(f64, f64)> {
-        let upper = motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
-        upper.map(|motion| (motion.eigenvalue.re, factor * motion.frequency())).collect()
-    };
-    let own = places(&done.spectrum.motions);
-    let mut panel = Panel::new(growth_axis(study), frequency)
-        .with(Region::across_x(PlotRole::Unstable, 0.0, f64::INFINITY).label("unstable"))
-        .with(ReferenceLine::vertical(0.0));
-    if let Some(dither) = &done.dither {
-        let before = places(&dither.undithered.motions);
-        panel = panel
-            .with(
-                Points::new(PlotRole::Undithered, before)
-                    .marker(Marker::Circle)
-                    .size(7.0)
-                    .label("without dither"),
-            )
-            .with(
-                Points::new(PlotRole::Dithered, own)
-                    .marker(Marker::Disc)
-                    .size(6.0)
-                    .label("averaged"),
-            );
-    } else {
-        panel = panel.with(
-            Points::new(PlotRole::Undithered, own)
-                .marker(Marker::Disc)
-                .size(6.0)
-                .label("linearised"),
-        );
-    }
-    Figure::single(panel)
-        .title(study.title().unwrap_or_default())
-        .caption("Eigenvalues of small motions about steady sliding.".to_owned())
 }
 
 /// The axis of the number at a path over a range, and its ruler.

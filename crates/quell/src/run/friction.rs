@@ -3,7 +3,7 @@
 use quell_dynamics::mean_friction::mean_friction;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{SteadyFriction, steady_effective_friction};
-use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, SlopeSide, effective};
+use quell_linear::averaging::{Averaging, Effective, FastMotion, SlopeSide, effective};
 use quell_model::units::Quantity;
 use quell_model::{Belt, Direction, Friction};
 use quell_numerics::order::ascending;
@@ -97,7 +97,7 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let belt = study.belt();
     let law = belt.friction();
     let has_noise = belt.dithers().iter().any(|dither| !dither.waveform.is_periodic());
-    let averaged = |v: f64, options: AveragingOptions| {
+    let averaged = |v: f64, options: Averaging| {
         FastMotion::of(belt, v, options)
             .and_then(|motion| effective(law, &motion, v))
             .map_err(|why| why.to_string())
@@ -110,10 +110,10 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
         } else if belt.has_contact_state() {
             mean_friction(belt, v).map_err(|why| why.to_string())
         } else {
-            averaged(v, AveragingOptions::FINITE_R)
+            averaged(v, Averaging::FiniteR)
         },
     });
-    let in_the_limit = |v: &f64| averaged(*v, AveragingOptions::LIMIT);
+    let in_the_limit = |v: &f64| averaged(*v, Averaging::Limit);
     let has_limit = !belt.dithers().is_empty() && !belt.has_contact_state();
     let limit = has_limit.then(|| at.in_parallel(in_the_limit).collect());
     FrictionCurve { points: points.collect(), limit, measured: None }

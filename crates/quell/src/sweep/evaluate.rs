@@ -10,7 +10,7 @@ use quell_dynamics::response::{
 use quell_dynamics::simulation::{Start, within};
 use quell_dynamics::start::InitialState;
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, Criterion, CriticalAmplitude, CriticalInput, criterion,
+    Averaging, AveragingError, Criterion, CriticalAmplitude, CriticalInput, criterion,
     critical_amplitudes,
 };
 use quell_linear::growth::Growth;
@@ -480,24 +480,24 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::SystemEnd
             | Computation::SystemResponse => {}
             Computation::Criterion => {
-                let found = criterion(belt, AveragingOptions::FINITE_R);
+                let found = criterion(belt, Averaging::FiniteR);
                 results.criterion = Some(found.map_err(status));
             }
             Computation::LimitCriterion => {
-                results.limit_criterion = Some(
-                    dithered
-                        .and_then(|()| criterion(belt, AveragingOptions::LIMIT).map_err(status)),
-                );
+                results.limit_criterion =
+                    Some(dithered.and_then(|()| criterion(belt, Averaging::Limit).map_err(status)));
             }
             Computation::CriticalAmplitudes => {
-                results.critical_amplitudes = Some(dithered.and_then(|()| {
-                    critical_amplitudes(belt, AveragingOptions::FINITE_R).map_err(status)
-                }));
+                results.critical_amplitudes =
+                    Some(dithered.and_then(|()| {
+                        critical_amplitudes(belt, Averaging::FiniteR).map_err(status)
+                    }));
             }
             Computation::LimitCriticalAmplitudes => {
-                results.limit_critical_amplitudes = Some(dithered.and_then(|()| {
-                    critical_amplitudes(belt, AveragingOptions::LIMIT).map_err(status)
-                }));
+                results.limit_critical_amplitudes =
+                    Some(dithered.and_then(|()| {
+                        critical_amplitudes(belt, Averaging::Limit).map_err(status)
+                    }));
             }
             Computation::Quench => results.quench = Some(quench_numbers_of_belt(belt)),
         }

@@ -25,7 +25,7 @@ pub struct QuenchNumbers {
 }
 
 impl QuenchNumbers {
-    fn of<E>(found: &Quench<E>, averaging: impl Fn(&E) -> Status) -> Self {
+    fn of(found: &Quench) -> Self {
         let least = found.least().map_err(reason);
         let ends = found.branch.end.map(|_| Status::NoBaseResponse);
         let is_loud = found.branch.quiet().intervals().is_empty();
@@ -37,7 +37,7 @@ impl QuenchNumbers {
             last: found.last().ok_or(ends.unwrap_or(Status::LoudAtLimit)),
             averaged: match found.averaged() {
                 Ok(averaged) => averaged.map_err(reason),
-                Err(why) => Err(averaging(why)),
+                Err(why) => Err(why.into()),
             },
         }
     }
@@ -51,21 +51,20 @@ fn reason(why: NotQuenched) -> Status {
     }
 }
 
-fn no_quench<E>(why: NoQuench<E>, averaging: impl Fn(&E) -> Status) -> Status {
+fn no_quench(why: NoQuench) -> Status {
     match why {
         NoQuench::NoDither => Status::NoDither,
         NoQuench::NoReach => Status::NoReach,
         NoQuench::NoSteadySliding => Status::NoSteadySliding,
         NoQuench::NoBaseResponse => Status::NoBaseResponse,
         NoQuench::Stalled => Status::Stalled,
-        NoQuench::Averaging(why) => averaging(&why),
+        NoQuench::Averaging(why) => (&why).into(),
     }
 }
 
 pub(super) fn quench_numbers_of_belt(belt: &Belt) -> Result<QuenchNumbers, Status> {
     let found = within(STEPS_OF_MANY_SEARCHES, || quench_of_belt(belt));
-    let status = |why: &_| Status::from(why);
-    found.map(|found| QuenchNumbers::of(&found, status)).map_err(|why| no_quench(why, status))
+    found.map(|found| QuenchNumbers::of(&found)).map_err(no_quench)
 }
 
 /// The numbers about one dither of a system, that of `input`.
@@ -74,8 +73,7 @@ pub(super) fn quench_numbers_of_system(
     input: usize,
 ) -> Result<QuenchNumbers, Status> {
     let found = within(STEPS_OF_MANY_SEARCHES, || quench_of_system(system, input));
-    let status = |why: &_| Status::from(why);
-    found.map(|found| QuenchNumbers::of(&found, status)).map_err(|why| no_quench(why, status))
+    found.map(|found| QuenchNumbers::of(&found)).map_err(no_quench)
 }
 
 /// The exact quench amplitude of the first dither of a belt as a number: 0 where sliding is stable without the dither, infinite where

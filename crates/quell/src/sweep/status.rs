@@ -4,7 +4,7 @@
 
 use quell_dynamics::response::{Uncertain, Undefined};
 use quell_dynamics::start::NoSquealingStart;
-use quell_linear::averaging::{AveragingError, NoAverage};
+use quell_linear::averaging::AveragingError;
 
 /// Status of one number of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -309,22 +309,12 @@ impl From<&AveragingError> for Status {
             AveragingError::SetValued { .. } => Self::SetValued,
             AveragingError::TooManyGroups { .. } => Self::TooManyGroups,
             AveragingError::NotFast { .. } => Self::NotFast,
+            AveragingError::NoSteadySliding(_) => Self::NoSteadySliding,
+            AveragingError::Resonance { .. } => Self::Resonance,
+            AveragingError::FrictionFactor => Self::FrictionFactor,
             AveragingError::NoResponse(_) => Self::NoAverageOfWaveform,
+            AveragingError::Eigenvalues(_) => Self::NotFinite,
             AveragingError::Quadrature(_) => Self::NotConverged,
-        }
-    }
-}
-
-impl From<&NoAverage> for Status {
-    fn from(why: &NoAverage) -> Self {
-        match why {
-            NoAverage::NoSteadySliding(_) => Self::NoSteadySliding,
-            NoAverage::Resonance { .. } => Self::Resonance,
-            NoAverage::FrictionFactor => Self::FrictionFactor,
-            NoAverage::TooManyFrequencies { .. } => Self::TooManyGroups,
-            NoAverage::NoResponse(_) => Self::NoAverageOfWaveform,
-            NoAverage::Mean(why) => why.into(),
-            NoAverage::Eigenvalues(_) => Self::NotFinite,
         }
     }
 }

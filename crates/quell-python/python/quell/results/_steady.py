@@ -547,46 +547,37 @@ class Waveforms(_columns.WaveformsColumns, Result):
 
 
 class Stability(_columns.StabilityColumns, Result):
-    """Stability of steady sliding: of a belt by averaging, of a disc or system by eigenvalues."""
+    """Stability of steady sliding by eigenvalues of small motions, under dither by averaging."""
 
     verb = "stability"
     verdict: Verdict
     """Whether small motions decay."""
     protocol: str
     """Method: "averaged", "linearised" or "floquet"."""
-    criterion: float | None
-    """Belt: 2ζ + Fμ̄′ (2.26), stable where positive."""
     critical_amplitudes: list[dict[str, Any]] | None
-    """Belt: every α > 0 at which the verdict changes: ``amplitude_ratio``, ``amplitude``, ``kind``, ``becomes``. System: the
-    amplitudes of the first dither."""
+    """Every amplitude of the first dither at which the verdict changes: ``amplitude``, ``amplitude_error``, ``kind``, ``becomes``, …"""
     growth_rate: float | None
-    """Largest growth rate, per unit τ or per unit of time of a system."""
+    """Largest growth rate, per unit of time."""
     growth_rate_error: float | None
-    """Disc and system: bound on the error of the growth rate."""
+    """Bound on the error of the growth rate."""
     frequency: float | None
-    """Disc and system: frequency of the motion that grows fastest or decays slowest."""
+    """Angular frequency of the motion that grows fastest or decays slowest."""
     motions: list[dict[str, Any]]
-    """System: ``growth_rate``, ``frequency``, ``damping_ratio``, ``error``, ``shape`` and ``friction_work`` of each motion."""
+    """``growth_rate``, ``frequency``, ``damping_ratio``, ``error``, ``shape`` and ``friction_work`` of each motion."""
     contacts: list[dict[str, Any]]
-    """System: ``name``, ``friction``, ``normal``, ``slip_amplitude``, ``effective_coefficient``, … of each contact."""
+    """``name``, ``friction``, ``normal``, ``slip_amplitude``, ``effective_coefficient``, … of each contact."""
     undithered: dict[str, Any] | None
-    """System: ``verdict``, ``growth_rate`` and ``frequency`` without dither."""
-    method: str
-    """Belt: the method behind the verdict: "finite-R averaging", or without dither "the slope of the friction law"."""
-    error: float | None
-    """Belt: bound on the error of the criterion."""
-    effective_coefficient: float | None
-    """Belt: averaged friction coefficient at the belt velocity."""
-    one_sided: bool
-    """Belt: whether the slope of averaged friction is that on one side of a kink."""
-    everywhere_stable_amplitude_ratio: float | None
-    """Belt: amplitude ratio from which on sliding is stable at any belt velocity: a length (velocity/ω₀)."""
-    everywhere_stable_amplitude: float | None
-    """Belt: the same amplitude as a force over k."""
-    unstable_belt_velocities: list[dict[str, Any]] | None
-    """Belt: ``lower``, ``lower_kind`` and ``upper`` of each range of belt velocities in which sliding is unstable."""
+    """``verdict``, ``growth_rate`` and ``frequency`` without dither."""
+    criterion: float | None
+    """One mass: 2ζ + Fμ̄′ (2.26), stable where positive."""
+    unstable_surface_velocities: list[dict[str, Any]] | None
+    """One mass: ``lower``, ``lower_kind`` and ``upper`` of each range of surface velocities in which sliding is unstable."""
     limit: dict[str, Any] | None
-    """Belt: the same facts in the limit of high dither frequency, R → ∞ (2.26); ``None`` without dither."""
+    """One mass: the averages of the dissertation, in the limit of high dither frequency, R → ∞ (2.26); ``None`` without dither."""
+    everywhere_stable_amplitude: float | None
+    """One mass: amplitude from which on sliding is stable at any surface velocity."""
+    everywhere_stable_amplitude_ratio: float | None
+    """One mass: the same over the angular frequency: a velocity."""
     unstable_modes: list[int]
     """Disc: modes that grow."""
     critical_speeds: list[dict[str, Any]]

@@ -7,7 +7,6 @@ mod modes;
 mod reach;
 mod response;
 mod simulate;
-mod stability;
 mod tracked;
 
 use std::fmt::Write as _;
@@ -30,7 +29,7 @@ pub(super) fn width_of(values: impl Iterator<Item = f64>, unit: &str) -> usize {
 
 /// The frequency of a motion that a table lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ListedMotion {
+pub(super) enum ListedMotion {
     /// |Im λ|, with the damping that the motion has.
     Damped,
     /// |λ|, the frequency of the motion without its damping.
@@ -38,7 +37,7 @@ enum ListedMotion {
 }
 
 /// Small motions as text, the first [`MOST_MOTIONS`] of them. Rates that are zero within their error are printed as 0.
-fn motions<'a>(
+pub(super) fn motions<'a>(
     units: UnitSystem,
     listed: ListedMotion,
     all: impl Iterator<Item = &'a SmallMotion>,

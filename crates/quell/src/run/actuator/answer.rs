@@ -11,7 +11,7 @@ use super::ActuatorFound;
 use super::demand::{FEW_SAMPLES, demand_fields, warnings_about_actuator};
 use crate::fields::Fields;
 use crate::run::design::StudyWithDesign;
-use crate::run::system::stability::FAR;
+use crate::run::stability::FAR;
 use crate::run::waveforms::label;
 use crate::words::{digits, listed};
 

@@ -25,7 +25,7 @@ use super::design::StudyWithDesign;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::refused_of_belt;
 use crate::parallel::Parallel;
-use crate::run::system::stability::FAR;
+use crate::run::stability::FAR;
 use crate::study::BeltStudy;
 
 /// Frequencies of the samples, at equal ratios: 1.2 % apart over two decades. Resonances, the frequencies of a measured response and

@@ -6,9 +6,7 @@
 mod gains;
 mod system;
 
-use quell_linear::averaging::{
-    AveragingError, AveragingOptions, DescribedCycle, DescribingFunction,
-};
+use quell_linear::averaging::{Averaging, AveragingError, DescribedCycle, DescribingFunction};
 use quell_model::units::Quantity;
 use quell_model::{Belt, Direction};
 use serde_json::Value as Json;
@@ -68,7 +66,7 @@ pub fn of_belt(study: &BeltStudy, largest: f64) -> Result<DescribedFriction, Fai
     refused_of_belt(study, "friction --describing")?;
     is_amplitude(largest)?;
     let belt = study.belt();
-    let finite_r = AveragingOptions::FINITE_R;
+    let finite_r = Averaging::FiniteR;
     let function = DescribingFunction::of_belt(belt, finite_r).map_err(failed)?;
     let bare = belt.undithered();
     let without = DescribingFunction::of_belt(&bare, finite_r).map_err(failed)?;
@@ -93,7 +91,7 @@ fn limit(belt: &Belt, largest: f64) -> Result<LimitAveragedCycles, String> {
         return Err("the study has no dither".to_owned());
     }
     let of = || -> Result<LimitAveragedCycles, AveragingError> {
-        let function = DescribingFunction::of_belt(belt, AveragingOptions::LIMIT)?;
+        let function = DescribingFunction::of_belt(belt, Averaging::Limit)?;
         let cycles = cycles_of(belt, &function, largest)?;
         Ok(LimitAveragedCycles { small: small(&function), cycles })
     };

@@ -74,7 +74,8 @@ pub fn of_system(study: &SystemStudy, largest: f64) -> Result<DescribedContacts,
     for (index, contact) in system.contacts.iter().enumerate() {
         let (velocity, normal_load) =
             (contact.surface_velocity.mean(), average.contacts[index].normal_load);
-        let law = prepared.fast().law(system, index, normal_load);
+        let law = prepared.fast().law(system, (index, normal_load), None);
+        let law = law.map_err(failed)?;
         let function = DescribingFunction::new(law, velocity).map_err(failed)?;
         let bare = AveragedLaw::undithered(&contact.friction);
         let without = DescribingFunction::new(bare, velocity).map_err(failed)?;

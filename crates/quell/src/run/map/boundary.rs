@@ -3,9 +3,7 @@
 //! For a map with an axis `dither.amplitude`: the critical amplitudes of averaging at each value of the other
 //! axis. They are exact, not traced on the grid: D = αR with α from [`critical_amplitudes`].
 
-use quell_linear::averaging::{
-    AveragingOptions, Becomes, CriticalAmplitude, FastResponse, critical_amplitudes,
-};
+use quell_linear::averaging::{Averaging, Becomes, CriticalAmplitude, critical_amplitudes};
 
 use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::units::Quantity;
@@ -18,7 +16,7 @@ use crate::sweep::{Grid, GridAxis};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
     /// Model of the fast motion: αG, or the oscillator's own response (finite-R averaging).
-    pub response: FastResponse,
+    pub averaging: Averaging,
     /// The stability of sliding above this amplitude.
     pub becomes: Becomes,
     /// (value of the other axis, amplitude in the unit of its axis), in the order of that axis.
@@ -56,14 +54,13 @@ pub fn boundaries_at(grid: &Grid, values: &[f64]) -> Vec<Boundary> {
         .filter_map(|&value| Some((value, study.with(&across.path, value).ok()?)))
         .collect();
     let mut boundaries = Vec::new();
-    for options in [AveragingOptions::LIMIT, AveragingOptions::FINITE_R] {
-        let response = options.response;
+    for averaging in [Averaging::Limit, Averaging::FiniteR] {
         let critical: Vec<(f64, f64, Vec<CriticalAmplitude>)> = at
             .iter()
             .filter_map(|(value, study)| {
                 let ratio = study.belt().dithers().first()?.frequency_ratio;
                 let unit = ratio * force(study);
-                Some((*value, unit, critical_amplitudes(study.belt(), options).ok()?))
+                Some((*value, unit, critical_amplitudes(study.belt(), averaging).ok()?))
             })
             .collect();
         for becomes in [Becomes::Stable, Becomes::Unstable] {
@@ -79,7 +76,7 @@ pub fn boundaries_at(grid: &Grid, values: &[f64]) -> Vec<Boundary> {
                 })
                 .collect();
             if !points.is_empty() {
-                boundaries.push(Boundary { response, becomes, points });
+                boundaries.push(Boundary { averaging, becomes, points });
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Runs of a belt under noise.
 
 use quell_dynamics::response::{BAND_END, Compared, Observables, ResponseCase, compare_many};
-use quell_linear::averaging::{AveragingOptions, criterion};
+use quell_linear::averaging::{Averaging, criterion};
 use quell_linear::growth::of_criterion;
 use quell_linear::linear_cost::{NoiseCost, noise_cost};
 use quell_model::waveform::Noise;
@@ -55,7 +55,7 @@ pub fn of_belt(study: &BeltStudy, seeds: Option<usize>) -> Result<NoiseResponse,
     let runs: Vec<NoisyRun> = runs.collect();
     // Without dither all runs are one.
     let undithered = &found[0].undithered;
-    let averaged = criterion(belt, AveragingOptions::FINITE_R);
+    let averaged = criterion(belt, Averaging::FiniteR);
     Ok(NoiseResponse {
         start: start_in_words(study),
         clock: if study.scales().is_some() { "t" } else { "τ" },

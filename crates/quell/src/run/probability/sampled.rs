@@ -4,7 +4,7 @@ use quell_design::least_dither::{averaged_quiet_of_belt, averaged_quiet_of_syste
 use quell_dynamics::attractor::reached;
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
 use quell_dynamics::start::{InitialState, NoSquealingStart};
-use quell_linear::averaging::{AveragedVerdict, AveragingOptions, criterion};
+use quell_linear::averaging::{AveragedVerdict, Averaging, criterion};
 use quell_linear::growth::{Growth, Verdict, of_criterion};
 use quell_model::disc::Disc;
 use quell_model::units::{Quantity, Scales};
@@ -140,7 +140,7 @@ impl SampledBelt {
         Self { belt, rate, force }
     }
 
-    fn growth(&self, options: AveragingOptions) -> Result<JudgedGrowth, String> {
+    fn growth(&self, options: Averaging) -> Result<JudgedGrowth, String> {
         let found = by_averaging(&self.belt, options)?;
         Ok(JudgedGrowth { rate: self.rate * found.rate, ..found })
     }
@@ -171,8 +171,8 @@ impl SampledKind for BeltStudy {
         let amplitude = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
         let slip = range::at_amplitude(belt, amplitude);
         let beyond_range = belt.friction().range().is_some_and(|range| slip > range.upper);
-        let growth = sampled.growth(AveragingOptions::FINITE_R);
-        let limit = (!belt.dithers().is_empty()).then(|| sampled.growth(AveragingOptions::LIMIT));
+        let growth = sampled.growth(Averaging::FiniteR);
+        let limit = (!belt.dithers().is_empty()).then(|| sampled.growth(Averaging::Limit));
         let hardly_fast = belt.dithers().iter().any(|dither| dither.lowest_ratio() < FAST);
         AveragedGrowth { growth, limit, beyond_range, opens: false, hardly_fast }
     }
@@ -224,7 +224,7 @@ impl SampledKind for BeltStudy {
     }
 }
 
-fn by_averaging(belt: &Belt, options: AveragingOptions) -> Result<JudgedGrowth, String> {
+fn by_averaging(belt: &Belt, options: Averaging) -> Result<JudgedGrowth, String> {
     let found = criterion(belt, options).map_err(|why| why.to_string())?;
     let vibrates = match found.verdict {
         AveragedVerdict::Unstable => Ok(true),
@@ -237,7 +237,7 @@ fn by_averaging(belt: &Belt, options: AveragingOptions) -> Result<JudgedGrowth, 
 /// Whether the base response of a belt is unstable; without dither steady sliding.
 fn is_unstable(belt: &Belt) -> Result<bool, String> {
     if !belt.dithers().iter().any(|dither| dither.amplitude != 0.0) {
-        return by_averaging(belt, AveragingOptions::FINITE_R)?.vibrates;
+        return by_averaging(belt, Averaging::FiniteR)?.vibrates;
     }
     match from_sliding(belt, GROWTH_STEPS).map_err(|why| why.to_string())?.verdict() {
         OrbitVerdict::Stable => Ok(false),

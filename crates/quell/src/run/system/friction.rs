@@ -4,7 +4,7 @@
 //! with the fast motion that the structure makes of the dither there. The fast motion depends on v only where friction takes part in
 //! it: at contacts with normals or slopes, and under dither of a load or of friction. Otherwise it is computed once.
 
-use quell_linear::averaging::{AveragedLaw, DitheredSystem};
+use quell_linear::averaging::{AveragedLaw, DitheredContact, DitheredSystem};
 use quell_model::System;
 use quell_model::profile::Profile;
 use quell_model::system::{Contact, Input, InputTarget};
@@ -83,9 +83,10 @@ fn averaged(system: &System) -> Result<Vec<AveragedLaw>, String> {
     let prepared = DitheredSystem::new(system).map_err(|why| why.to_string())?;
     let average = prepared.average().map_err(|why| why.to_string())?;
     let contacts = average.contacts.iter().enumerate();
-    Ok(contacts
-        .map(|(index, contact)| prepared.fast().law(system, index, contact.normal_load))
-        .collect())
+    let law = |(index, contact): (usize, &DitheredContact)| {
+        prepared.fast().law(system, (index, contact.normal_load), None)
+    };
+    contacts.map(law).collect::<Result<_, _>>().map_err(|why| why.to_string())
 }
 
 /// Whether the fast motion depends on friction, and so on slip velocities.

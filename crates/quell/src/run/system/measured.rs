@@ -7,12 +7,12 @@ use quell_linear::measured::{MeasuredSliding, MeasuredSystem, Receptance};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::stability::{SlidingContact, put_contact, put_critical};
 use super::validity::{condition, opened, opening};
 use super::{failed, oscillating, velocity_in_words};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::range::outside_of_laws;
+use crate::run::stability::{SlidingContact, put_contact, put_critical};
 use crate::study::{FrequencyResponse, SystemStudy};
 use crate::words::plural;
 

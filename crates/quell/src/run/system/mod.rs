@@ -14,13 +14,12 @@ pub mod reach;
 pub mod response;
 pub mod simulate;
 mod sound;
-pub mod stability;
 pub mod start;
 pub mod tracked;
 mod trajectory;
 pub mod validity;
 
-use quell_linear::averaging::NoAverage;
+use quell_linear::averaging::AveragingError;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion};
 use quell_model::System;
 use quell_model::units::Quantity;
@@ -38,7 +37,7 @@ pub(in crate::run) fn failed(verb: &str, why: impl std::fmt::Display) -> Failure
 }
 
 /// The failure of averaging.
-fn not_averaged(why: NoAverage) -> Failure {
+pub(crate) fn not_averaged(why: AveragingError) -> Failure {
     failed("stability", why)
 }
 
@@ -105,12 +104,12 @@ pub(crate) fn rate_of(units: UnitSystem, rate: f64) -> String {
 }
 
 /// A force with its unit.
-fn force(units: UnitSystem, value: f64) -> String {
+pub(crate) fn force(units: UnitSystem, value: f64) -> String {
     in_units(units, Quantity::Force, value)
 }
 
 /// One small motion.
-fn put_motion(system: &System, units: UnitSystem, motion: &SmallMotion) -> Fields {
+pub(crate) fn put_motion(system: &System, units: UnitSystem, motion: &SmallMotion) -> Fields {
     let mut fields = Fields::of_system(units);
     fields
         .rate("growth_rate", Ok(motion.eigenvalue.re))
@@ -137,6 +136,6 @@ fn put_motion(system: &System, units: UnitSystem, motion: &SmallMotion) -> Field
 }
 
 /// Every motion but the conjugates of those listed.
-fn upper(spectrum: &MotionSpectrum) -> impl Iterator<Item = &SmallMotion> {
+pub(crate) fn upper(spectrum: &MotionSpectrum) -> impl Iterator<Item = &SmallMotion> {
     spectrum.motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0)
 }

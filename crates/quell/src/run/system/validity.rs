@@ -10,13 +10,13 @@ use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural};
 
 /// The contacts that the fast motion opens, by name.
-pub(super) fn opening<'a>(system: &'a System, contacts: &[DitheredContact]) -> Vec<&'a str> {
+pub(crate) fn opening<'a>(system: &'a System, contacts: &[DitheredContact]) -> Vec<&'a str> {
     let contacts = system.contacts.iter().zip(contacts);
     contacts.filter(|(_, found)| found.opens()).map(|(contact, _)| contact.name.as_str()).collect()
 }
 
 /// The condition of a verdict that does not hold as stated, after "would be stable": empty where every contact stays closed.
-pub(super) fn condition(opening: &[&str]) -> Option<String> {
+pub(crate) fn condition(opening: &[&str]) -> Option<String> {
     if opening.is_empty() {
         return None;
     }
@@ -29,7 +29,7 @@ pub(super) fn condition(opening: &[&str]) -> Option<String> {
 }
 
 /// Warnings about contacts that the fast load opens.
-pub(super) fn opened(
+pub(crate) fn opened(
     units: UnitSystem,
     system: &System,
     contacts: &[DitheredContact],
@@ -90,7 +90,7 @@ impl ContactRanges {
     }
 
     /// The contacts that open at some value, by name.
-    pub(super) fn opening<'a>(&self, system: &'a System) -> Vec<&'a str> {
+    pub(crate) fn opening<'a>(&self, system: &'a System) -> Vec<&'a str> {
         let contacts = system.contacts.iter().zip(&self.opens);
         contacts.filter_map(|(contact, range)| range.map(|_| contact.name.as_str())).collect()
     }

@@ -4,7 +4,7 @@ use quell_dynamics::motion::orbit::{
     CurvesFound, MotionPlane, OpenLine, ThresholdCurve, ThresholdCurveEnd, motion_curves,
 };
 use quell_dynamics::orbit::threshold::ThresholdKind;
-use quell_linear::averaging::{AveragingOptions, Becomes, DitheredSystem, critical_amplitudes};
+use quell_linear::averaging::{Averaging, Becomes, DitheredSystem, critical_amplitudes};
 use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
@@ -201,7 +201,7 @@ fn averaged(
         move |along: f64| {
             let system = at(&[most, along]).ok()?;
             let mass = system.one_mass()?;
-            let found = critical_amplitudes(mass.belt(), AveragingOptions::LIMIT).ok()?;
+            let found = critical_amplitudes(mass.belt(), Averaging::Limit).ok()?;
             let first = found.iter().find(|critical| critical.becomes == becomes)?;
             let own = mass.belt().dithers().first()?.amplitude;
             let amplitude = first.amplitude * most / own;

@@ -8,7 +8,7 @@ use super::{COLUMNS, ComparedWaveform, WaveformComparison};
 use crate::contact_state::averages_are_a_start;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::system::stability::FAR;
+use crate::run::stability::FAR;
 use crate::study::SystemStudy;
 
 impl WaveformComparison {

@@ -34,8 +34,8 @@ use serde_json::Value as Json;
 pub(crate) use comparison::{COLUMNS, CostColumn};
 pub use comparison::{ComparedWaveform, LeastDither, RankedBy, WaveformComparison, WaveformCost};
 
+use super::stability::FAR;
 use super::system::modes::natural;
-use super::system::stability::FAR;
 use super::system::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::averaged_without_states;
