@@ -33,9 +33,7 @@ const OF_PERIODIC_DITHER: &[&str] = &[
 /// # Errors
 /// A complaint about the key that gives the contact its state, or the noise its waveform.
 pub(crate) fn refused_of_belt(study: &BeltStudy, verb: &str) -> Result<(), Failure> {
-    if verb != "friction --describing"
-        && let Some(key) = Study::from(study).noise()
-    {
+    if let Some(key) = Study::from(study).noise() {
         return Err(not_periodic(verb, key).into());
     }
     if OF_BELTS_WITH_STATES.contains(&verb) {

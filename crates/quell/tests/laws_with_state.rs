@@ -207,8 +207,11 @@ fn averaged_verbs_warn_where_the_rigid_law_does_not_hold() {
         rows(&reference, "elastic_slider").iter().zip([true, true, true, true, false])
     {
         let study = belt(text(&row["study"]));
-        let found = warnings(&verbs(&(&study).into()).stability().expect("an answer").json());
-        assert_eq!(found.contains("breakaway displacement"), expected, "{row}: {found}");
+        let asked = verbs(&(&study).into());
+        for answer in [asked.stability(), asked.describing(0.1)] {
+            let found = warnings(&answer.expect("an answer").json());
+            assert_eq!(found.contains("breakaway displacement"), expected, "{row}: {found}");
+        }
     }
     let study = belt(text(&rows(&reference, "lugre")[2]["study"]));
     let found = warnings(&verbs(&(&study).into()).stability().expect("an answer").json());
@@ -220,7 +223,7 @@ fn averaged_verbs_warn_where_the_rigid_law_does_not_hold() {
 fn verbs_that_do_not_know_the_state_refuse_it_by_name() {
     let reference = reference();
     let study = belt(text(&rows(&reference, "elastic_slider")[0]["study"]));
-    let refused = verbs(&study.into()).describing(1.0).err().expect("no describing function");
+    let refused = verbs(&study.into()).actuator(None).err().expect("no averages");
     let refused = refused.json().to_string();
     assert!(refused.contains("belt.tangential_stiffness"), "{refused}");
     let both = text(&rows(&reference, "lugre")[0]["study"])

@@ -389,14 +389,11 @@ fn least_amplitudes_of_every_waveform() {
         };
         let limit = of(Averaging::Limit);
         assert!((limit * peak / 0.05 - 1.0).abs() < 1e-9, "{row:?}");
-        // Without damping; its part is the square of 2ζ over the repetition.
-        let damped = (0.01 * f64::from(row.waveform.cycles()) / 60.0).powi(2);
         let ratio = least.amplitude / 60.0;
-        assert!((ratio / of(Averaging::FiniteR) - 1.0).abs() < damped, "{row:?}");
-        // The velocity of a sine is that of the damped mass on its spring.
+        assert!((ratio / of(Averaging::FiniteR) - 1.0).abs() < 1e-12, "{row:?}");
+        // The fast velocity of a sine is larger by 1/(1 − 1/R²).
         if row.waveform == Waveform::Sine {
-            let share = ratio / limit / ((1.0 - 1.0 / 3600.0_f64).hypot(0.01 / 60.0));
-            assert!((share - 1.0).abs() < 1e-9, "{row:?}");
+            assert!((ratio / limit / (1.0 - 1.0 / 3600.0) - 1.0).abs() < 1e-9, "{row:?}");
         }
         let exact = row.exact.as_ref().expect("an exact amplitude");
         // The longest bursts repeat at 7.5 times the natural frequency only.
@@ -542,8 +539,9 @@ fn waveforms_of_a_system() {
         // One oscillator in closed form, and the wave on the structure as a Taylor series.
         assert!((number(&row["stroke"]) / exact.stroke - 1.0).abs() < 1e-9, "{row} {exact:?}");
         assert!((number(&row["power"]) / exact.power - 1.0).abs() < 1e-9, "{row} {exact:?}");
-        // Where the fast velocity of the mass reaches the belt.
-        assert!((exact.velocity / 0.1 - 1.0).abs() < 1e-9, "{row} {exact:?}");
+        // Where the fast velocity of the mass without its damper reaches the belt: the damper takes 2(ζ/R)² of it, more of harmonics.
+        let taken = 1.0 - exact.velocity / 0.1;
+        assert!((1e-6..4e-6).contains(&taken), "{taken:e} {row} {exact:?}");
     }
     assert_eq!(facts["best"]["amplitude"], "square");
     // The study's own burst has the least amplitude of `stability`. Its integral reaches 2 − 2/3 where that of its carrier reaches 1, so

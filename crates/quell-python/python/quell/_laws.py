@@ -490,14 +490,14 @@ class StudyFriction(Friction):
         self, at: npt.ArrayLike | str | Sequence[str] | None = None, measured: bool = False
     ) -> results.FrictionCurve | results.ContactFriction: ...
     @overload
-    def __call__(self, *, describing: Number) -> results.DescribingFunction | results.ContactGains: ...
+    def __call__(self, *, describing: Number) -> results.DescribingFunction: ...
     @keywords
     def __call__(
         self,
         at: npt.ArrayLike | str | Sequence[str] | None = None,
         measured: bool = False,
         describing: Number | None = None,
-    ) -> results.FrictionCurve | results.ContactFriction | results.DescribingFunction | results.ContactGains:
+    ) -> results.FrictionCurve | results.ContactFriction | results.DescribingFunction:
         """The friction law and the effective friction under the dither, equations (2.21), (3.19)–(3.27), (4.27).
 
         Parameters
@@ -516,17 +516,13 @@ class StudyFriction(Friction):
         -------
         quell.results.FrictionCurve or quell.results.DescribingFunction
             μ, μ̄ and μ̄′ over ``slip_velocity`` (n,), and the measured ⟨f/N⟩ if requested; with ``describing`` mean coefficient
-            and gain over ``velocity_amplitude`` (n,). Of a system :class:`quell.results.ContactFriction` and
-            :class:`quell.results.ContactGains`, which have every contact.
+            and gain over ``velocity_amplitude`` (n,) of every contact. Of a system :class:`quell.results.ContactFriction`, which has
+            every contact.
         """
         from . import results
 
         study, native = self._study, self._study._native
-        curve, gains = (
-            (results.ContactFriction, results.ContactGains)
-            if native.kind == "system"
-            else (results.FrictionCurve, results.DescribingFunction)
-        )
+        curve = results.ContactFriction if native.kind == "system" else results.FrictionCurve
         if describing is not None:
             arguments = Arguments()
             allowed = "a velocity amplitude above 0"
@@ -534,7 +530,7 @@ class StudyFriction(Friction):
             if at is not None or measured:
                 arguments.wrong.append(complaint("describing", None, "given without at and measured", "conflict"))
             arguments.done()
-            return gains._of(study, native.describing(largest))
+            return results.DescribingFunction._of(study, native.describing(largest))
         where: npt.NDArray[np.float64] | None = None
         at = plain(at)
         if isinstance(at, str):

@@ -12,8 +12,8 @@ use crate::run::system::response::ResponseRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
-    actuator, atlas, basins, belt_system, bifurcation, describing, design, friction,
-    noise_response, orbit, probability, response, simulate,
+    actuator, atlas, basins, belt_system, bifurcation, design, friction, noise_response, orbit,
+    probability, response, simulate,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -68,7 +68,7 @@ impl Verbs for BeltStudy {
     }
 
     fn describing(&self, largest: f64) -> Reply {
-        answer(self, describing::of_belt(self, largest))
+        belt_system::described(self)?.describing(largest)
     }
 
     fn stability(&self) -> Reply {

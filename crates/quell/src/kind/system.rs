@@ -92,7 +92,7 @@ impl Verbs for SystemStudy {
     }
 
     fn describing(&self, largest: f64) -> Reply {
-        answer(self, describing::of_system(self, largest))
+        answer(self, describing::run(self, largest))
     }
 
     fn waveforms(&self) -> Reply {

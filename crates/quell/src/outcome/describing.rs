@@ -1,4 +1,4 @@
-//! `friction --describing` of belts and systems: averaged friction under a slow sinusoid.
+//! `friction --describing`: averaged friction under a slow sinusoid.
 
 use std::fmt::Write as _;
 
@@ -6,72 +6,14 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::{TextTable, figure};
+use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::quantity;
-use crate::run::describing::{DescribedContacts, DescribedFriction};
+use crate::run::describing::DescribedContacts;
 use crate::run::system::in_units;
-use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
-
-impl Presented<BeltSetup> for DescribedFriction {
-    fn json(&self, study: &BeltStudy) -> Json {
-        self.json(study)
-    }
-
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(self.sentence(study))
-    }
-
-    fn table(&self, study: &BeltStudy) -> String {
-        table(study, self)
-    }
-
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("friction", self.dataset(study))]
-    }
-
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::describing::of_belt(study, self)))
-    }
-}
-
-fn table(study: &BeltStudy, done: &DescribedFriction) -> String {
-    let mut head = TextTable::new(study.scales());
-    head.known("gain for small amplitudes", Quantity::PerVelocity, done.curve.small.clone());
-    for cycle in &done.cycles {
-        let label = if cycle.stable { "stable limit cycle" } else { "unstable limit cycle" };
-        head.number(label, Quantity::Velocity, cycle.amplitude);
-    }
-    let (unit, per_unit) = match study.scales().and_then(|scales| scales.one(Quantity::Velocity)) {
-        Some((one, unit)) => (unit.to_owned(), one),
-        None => (quantity::unit_of(Quantity::Velocity, None), 1.0),
-    };
-    let mut text = head.text();
-    let _ = write!(
-        text,
-        "Slip velocity v₀ + a sin φ, a in {unit}: mean coefficient, gain N₁ of the sinusoid, N₁ without dither, and 2ζ + FN₁\n  \
-         {:>14}  {:>14}  {:>14}  {:>14}  {:>14}\n",
-        "a", "mean", "N₁", "undithered", "2ζ + FN₁"
-    );
-    let balances = done.balances(study);
-    for (index, point, bare) in done.curve.tenths() {
-        let cells = [
-            point.amplitude * per_unit,
-            point.coefficient,
-            point.gain / per_unit,
-            bare.gain / per_unit,
-            balances[index],
-        ];
-        for cell in cells {
-            let _ = write!(text, "  {:>14}", figure(cell));
-        }
-        text.push('\n');
-    }
-    text
-}
+use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for DescribedContacts {
     fn json(&self, study: &SystemStudy) -> Json {
@@ -83,7 +25,7 @@ impl Presented<SystemSetup> for DescribedContacts {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        table_of_system(study, self)
+        table(study, self)
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
@@ -91,11 +33,11 @@ impl Presented<SystemSetup> for DescribedContacts {
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::describing::of_system(study, self)))
+        Some(Ok(picture::describing::describing(study, self)))
     }
 }
 
-fn table_of_system(study: &SystemStudy, done: &DescribedContacts) -> String {
+fn table(study: &SystemStudy, done: &DescribedContacts) -> String {
     let unit =
         study.units().unit(Quantity::Velocity).map_or(String::new(), |unit| format!(" in {unit}"));
     let mut text = String::new();

@@ -3,39 +3,17 @@
 use quell_linear::averaging::DescribedCycle;
 use quell_model::units::Quantity;
 
-use super::caption::{caption, caption_of_system};
+use super::caption::caption_of_system;
 use super::ruler::Ruler;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
-use crate::run::describing::{DescribedContact, DescribedContacts, DescribedFriction, balance};
-use crate::study::{BeltStudy, SystemStudy, UnitSystem};
-
-/// 2ζ + FN₁ over the velocity amplitude, with the limit cycles.
-pub(crate) fn of_belt(study: &BeltStudy, done: &DescribedFriction) -> Figure {
-    let ruler = Ruler::new(study, Quantity::Velocity, done.curve.largest);
-    let mut panel =
-        Panel::new(axis(&ruler, done.curve.largest), PlotAxis::new("balance").symbol("2ζ + FN_1"))
-            .with(
-                Region::across_y(PlotRole::Unstable, f64::NEG_INFINITY, 0.0).label("motions grow"),
-            )
-            .with(ReferenceLine::horizontal(0.0));
-    let line = |role, values: Vec<f64>| line(&ruler, role, &done.curve.amplitudes(), values);
-    if !study.belt().dithers().is_empty() {
-        let gains = done.curve.undithered_gains();
-        let bare = gains.into_iter().map(|gain| balance(study.belt(), gain)).collect();
-        panel = panel.with(line(PlotRole::Undithered, bare).label("without dither"));
-    }
-    panel = panel.with(line(PlotRole::Averaged, done.balances(study)).label("averaged"));
-    panel = panel.with_all(marks(&ruler, &done.cycles.iter()));
-    Figure::single(panel)
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{}; by the describing function of averaged friction.", caption(study)))
-}
+use crate::run::describing::{DescribedContact, DescribedContacts};
+use crate::study::{SystemStudy, UnitSystem};
 
 /// The gain of every contact over the velocity amplitude, and below it the growth rate of slow motions with the limit cycles, where
 /// harmonic balance holds.
-pub(crate) fn of_system(study: &SystemStudy, done: &DescribedContacts) -> Figure {
+pub(crate) fn describing(study: &SystemStudy, done: &DescribedContacts) -> Figure {
     let ruler = Ruler::of_system(study, Quantity::Velocity, [done.largest]);
     let per_velocity = study.units().unit(Quantity::PerVelocity).unwrap_or_default();
     let vertical = PlotAxis::new("gain").symbol("N_1");

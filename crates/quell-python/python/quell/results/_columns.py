@@ -318,21 +318,6 @@ class ContactFrictionColumns(Frozen):
     slip_velocity: npt.NDArray[np.float64]
 
 
-class ContactGainsColumns(Frozen):
-    """Of :class:`quell.results.ContactGains`."""
-
-    contact_name: npt.NDArray[np.str_]
-    contact_normal_load: npt.NDArray[np.float64]
-    contact_number: npt.NDArray[np.float64]
-    contact_slip_velocity: npt.NDArray[np.float64]
-    contact_small_gain: npt.NDArray[np.float64]
-    gain: npt.NDArray[np.float64]
-    growth_rate_value: float
-    mean_coefficient: npt.NDArray[np.float64]
-    row: npt.NDArray[np.float64]
-    undithered_gain: npt.NDArray[np.float64]
-
-
 class ComparisonColumns(Frozen):
     """Of :class:`quell.results.Comparison`."""
 
@@ -422,8 +407,15 @@ class DecayColumns(Frozen):
 class DescribingFunctionColumns(Frozen):
     """Of :class:`quell.results.DescribingFunction`."""
 
-    gain_error_value: npt.NDArray[np.float64]
+    contact_name: npt.NDArray[np.str_]
+    contact_normal_load: npt.NDArray[np.float64]
+    contact_number: npt.NDArray[np.float64]
+    contact_slip_velocity: npt.NDArray[np.float64]
+    contact_small_gain: npt.NDArray[np.float64]
+    gain: npt.NDArray[np.float64]
+    growth_rate_value: float
     limit_cycle_amplitude_value: npt.NDArray[np.float64]
+    limit_cycle_frequency_value: npt.NDArray[np.float64]
     limit_cycle_stable: npt.NDArray[Any]
     limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
     limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
@@ -434,6 +426,10 @@ class DescribingFunctionColumns(Frozen):
     limit_limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
     limit_limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
     limit_small_gain: float
+    mean_coefficient: npt.NDArray[np.float64]
+    row: npt.NDArray[np.float64]
+    undithered_gain: npt.NDArray[np.float64]
+    velocity_amplitude: npt.NDArray[np.float64]
 
 
 class DesignColumns(Frozen):
@@ -991,12 +987,10 @@ class StabilityColumns(Frozen):
     contact_ratchet_force: npt.NDArray[np.float64]
     contact_slip_amplitude: npt.NDArray[np.float64]
     contact_slope_by_velocity: npt.NDArray[np.float64]
+    contact_slope_is_one_sided: npt.NDArray[Any]
     critical_amplitude_amplitude: npt.NDArray[np.float64]
     critical_amplitude_amplitude_error: npt.NDArray[np.float64]
-    critical_amplitude_amplitude_ratio: npt.NDArray[np.float64]
-    critical_amplitude_amplitude_ratio_error: npt.NDArray[np.float64]
     critical_amplitude_becomes: npt.NDArray[np.str_]
-    critical_amplitude_contact_stays_closed: npt.NDArray[Any]
     critical_amplitude_contacts_stay_closed: npt.NDArray[Any]
     critical_amplitude_kind: npt.NDArray[np.str_]
     critical_amplitude_within_law_ranges: npt.NDArray[Any]
@@ -1006,22 +1000,19 @@ class StabilityColumns(Frozen):
     critical_speed_speed: npt.NDArray[np.float64]
     growth_rate_db_per_s: float
     limit_criterion: float
+    limit_criterion_error: float
     limit_critical_amplitude_amplitude: npt.NDArray[np.float64]
+    limit_critical_amplitude_amplitude_error: npt.NDArray[np.float64]
     limit_critical_amplitude_amplitude_ratio: npt.NDArray[np.float64]
-    limit_critical_amplitude_amplitude_ratio_error: npt.NDArray[np.float64]
     limit_critical_amplitude_becomes: npt.NDArray[np.str_]
-    limit_critical_amplitude_contact_stays_closed: npt.NDArray[Any]
+    limit_critical_amplitude_contacts_stay_closed: npt.NDArray[Any]
     limit_critical_amplitude_kind: npt.NDArray[np.str_]
-    limit_effective_coefficient: float
-    limit_error: float
     limit_everywhere_stable_amplitude: float
     limit_everywhere_stable_amplitude_ratio: float
     limit_growth_rate: float
-    limit_growth_rate_db_per_s: float
-    limit_one_sided: Any
-    limit_unstable_belt_velocity_lower: npt.NDArray[np.float64]
-    limit_unstable_belt_velocity_lower_kind: npt.NDArray[np.str_]
-    limit_unstable_belt_velocity_upper: npt.NDArray[np.float64]
+    limit_unstable_surface_velocity_lower: npt.NDArray[np.float64]
+    limit_unstable_surface_velocity_lower_kind: npt.NDArray[np.str_]
+    limit_unstable_surface_velocity_upper: npt.NDArray[np.float64]
     motion_damping_ratio: npt.NDArray[np.float64]
     motion_error: npt.NDArray[np.float64]
     motion_frequency: npt.NDArray[np.float64]
@@ -1029,9 +1020,9 @@ class StabilityColumns(Frozen):
     undithered_frequency: float
     undithered_growth_rate: float
     undithered_growth_rate_error: float
-    unstable_belt_velocity_lower: npt.NDArray[np.float64]
-    unstable_belt_velocity_lower_kind: npt.NDArray[np.str_]
-    unstable_belt_velocity_upper: npt.NDArray[np.float64]
+    unstable_surface_velocity_lower: npt.NDArray[np.float64]
+    unstable_surface_velocity_lower_kind: npt.NDArray[np.str_]
+    unstable_surface_velocity_upper: npt.NDArray[np.float64]
 
 
 class ThresholdCurvesColumns(Frozen):

@@ -133,51 +133,6 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
         return None if found is None else found.values
 
 
-class DescribingFunction(_columns.DescribingFunctionColumns, Result):
-    """Averaged friction under a slow sinusoid of the slip velocity, over its velocity amplitude (n,)."""
-
-    verb = "friction"
-    small_gain: float | None
-    """N₁ for small amplitudes: the slope of averaged friction at the belt velocity."""
-    limit_cycle_velocity: float | None
-    """Velocity amplitude of the smallest stable limit cycle, where 2ζ + FN₁ = 0."""
-    limit_cycle_amplitude: float | None
-    """Its displacement amplitude."""
-    limit_cycles: list[dict[str, Any]]
-    """Every limit cycle: ``velocity_amplitude``, ``amplitude``, ``velocity_amplitude_error``, ``stable``."""
-    limit: dict[str, Any] | None
-    """The same in the limit of high dither frequency: ``small_gain``, ``limit_cycle_velocity``, ``limit_cycle_amplitude``, ``limit_cycles``."""
-    gain_error: list[float | None]
-    """Bound on the numerical error of N₁ (n,)."""
-    belt_velocity: float
-    """v₀."""
-
-    @property
-    def velocity_amplitude(self) -> npt.NDArray[np.float64]:
-        """a (n,), in the unit of the study: lengths per τ, in SI m/s."""
-        return self.arrays["velocity_amplitude"].values
-
-    @property
-    def mean_coefficient(self) -> npt.NDArray[np.float64]:
-        """Mean coefficient of friction (n,)."""
-        return self.arrays["mean_coefficient"].values
-
-    @property
-    def gain(self) -> npt.NDArray[np.float64]:
-        """Equivalent gain N₁ (n,) per unit of ``velocity_amplitude``."""
-        return self.arrays["gain"].values
-
-    @property
-    def undithered_gain(self) -> npt.NDArray[np.float64]:
-        """N₁ (n,) without dither."""
-        return self.arrays["undithered_gain"].values
-
-    @property
-    def balance(self) -> npt.NDArray[np.float64]:
-        """2ζ + FN₁ (n,): slow motions of this amplitude decay where it is positive."""
-        return self.arrays["balance"].values
-
-
 class ContactFriction(_columns.ContactFrictionColumns, Result):
     """The friction law of every contact of a system and its average under the dither; arrays have one row for each contact and slip
     velocity."""
@@ -188,8 +143,8 @@ class ContactFriction(_columns.ContactFrictionColumns, Result):
     ``effective_coefficient`` and ``effective_slope`` with their errors."""
 
 
-class ContactGains(_columns.ContactGainsColumns, Result):
-    """Averaged friction of every contact of a system under a slow sinusoid of its slip velocity; arrays have one row for each contact
+class DescribingFunction(_columns.DescribingFunctionColumns, Result):
+    """Averaged friction of every contact under a slow sinusoid of its slip velocity; arrays have one row for each contact
     and velocity amplitude."""
 
     verb = "friction"
@@ -210,6 +165,9 @@ class ContactGains(_columns.ContactGainsColumns, Result):
     contacts: list[dict[str, Any]]
     """``name``, ``slip_velocity``, ``normal_load``, ``small_gain``, and over ``velocity_amplitude``: ``mean_coefficient``, ``gain``
     with ``gain_error``, and ``undithered_gain``."""
+    limit: dict[str, Any] | None
+    """One mass under dither: ``small_gain``, ``limit_cycle_velocity``, ``limit_cycle_amplitude`` and ``limit_cycles`` in the limit of high
+    dither frequency."""
 
 
 class Design(_columns.DesignColumns, Result):

@@ -4,7 +4,6 @@ use quell_linear::averaging::{AveragingError, DescribingFunction, EquivalentGain
 use quell_model::units::Quantity;
 use quell_numerics::order::ascending;
 
-use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::parallel::Parallel;
 
@@ -99,13 +98,5 @@ impl GainCurve {
             .per_velocity("gain", &self.gains())
             .per_velocity("gain_error", &errors)
             .per_velocity("undithered_gain", &self.undithered_gains());
-    }
-
-    pub(super) fn columns(&self, dataset: Dataset) -> Dataset {
-        dataset
-            .axis("velocity_amplitude", Quantity::Velocity, self.amplitudes())
-            .array("mean_coefficient", Quantity::Ratio, self.coefficients())
-            .per_velocity("gain", self.gains())
-            .per_velocity("undithered_gain", self.undithered_gains())
     }
 }

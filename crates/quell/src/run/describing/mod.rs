@@ -1,28 +1,32 @@
-//! `friction --describing`: averaged friction under a slow sinusoid of the slip velocity, and the limit cycles that it predicts.
+//! `friction --describing`: the describing function of every contact, and the slow vibration that a weak dither leaves.
 //!
-//! Of a belt the averages are those of finite-R averaging, and `limit` has the cycles of the limit of high frequency. Of a system
-//! every average has the fast motion that the structure makes of the dither (`system`).
+//! Each contact has the fast motion that the structure makes of all dithers there, under its mean load in averaged sliding. The slow
+//! vibration is that of harmonic balance with the structure ([`SlowVibration`]), where it holds. Of one mass `limit` has the cycles by
+//! averaging in the limit of high dither frequency.
 
 mod gains;
-mod system;
+mod limit;
 
-use quell_linear::averaging::{Averaging, AveragingError, DescribedCycle, DescribingFunction};
+use quell_linear::averaging::{
+    AveragedLaw, AveragedSliding, DescribedVibration, DescribingFunction, DitheredSystem,
+    SlowVibration,
+};
+use quell_model::Contact;
+use quell_model::system::{Input, InputTarget};
 use quell_model::units::Quantity;
-use quell_model::{Belt, Direction};
 use serde_json::Value as Json;
 
 pub use gains::GainCurve;
-pub use system::{DescribedContact, DescribedContacts, of_system};
-
-use gains::small;
+pub use limit::LimitAveragedCycles;
 
 use crate::complaint::{Complaint, Failure};
-use crate::contact_state::refused_of_belt;
-use crate::dataset::Dataset;
+use crate::contact_state;
+use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::noise::few_lines_of_system;
 use crate::range;
-use crate::study::BeltStudy;
-use crate::words::in_words;
+use crate::run::system::{has_equations, in_units, oscillating, velocity_in_words};
+use crate::study::{SystemStudy, UnitSystem};
 
 /// The failure of an average.
 fn failed(why: impl std::fmt::Display) -> Failure {
@@ -38,93 +42,132 @@ fn is_amplitude(largest: f64) -> Result<(), Failure> {
     Err(Complaint::option("--describing", largest.to_string(), allowed).into())
 }
 
-/// The describing function of a belt at its belt velocity.
+/// Averaged friction of one contact under a slow sinusoid of its slip velocity.
 #[derive(Clone, Debug)]
-pub struct DescribedFriction {
+pub struct DescribedContact {
+    /// Name of the contact.
+    pub name: String,
+    /// Mean slip velocity, that of the surface.
+    pub velocity: f64,
+    /// Mean normal load.
+    pub normal_load: f64,
     /// Mean and equivalent gain.
     pub curve: GainCurve,
-    /// Every limit cycle up to the largest amplitude, ascending.
-    pub cycles: Vec<DescribedCycle>,
-    /// The same in the limit of high dither frequency; or why it is unavailable.
-    pub limit: Result<LimitAveragedCycles, String>,
 }
 
-/// Limit cycles by averaging in the limit of high dither frequency.
+/// The describing functions of a system.
 #[derive(Clone, Debug)]
-pub struct LimitAveragedCycles {
-    /// The gain for a → 0, or why it has no value.
-    pub small: Result<f64, String>,
-    /// Every limit cycle, ascending.
-    pub cycles: Vec<DescribedCycle>,
+pub struct DescribedContacts {
+    /// Largest velocity amplitude.
+    pub largest: f64,
+    /// The contacts, in the order of the study.
+    pub contacts: Vec<DescribedContact>,
+    /// The slow vibration, or why harmonic balance does not hold.
+    pub balance: Result<SlowBalance, String>,
+    /// The cycles of one mass in the limit of high dither frequency, or why they are unknown; `None` of other systems and without dither.
+    pub limit: Option<Result<LimitAveragedCycles, String>>,
+    warnings: Vec<String>,
 }
 
-/// The describing function of a belt for velocity amplitudes up to `largest`.
+/// The balance of slow motions over the amplitude at one contact.
+#[derive(Clone, Debug)]
+pub struct SlowBalance {
+    /// The contact, counted from 0.
+    pub contact: usize,
+    /// Growth rate of slow motions at each amplitude of its curve.
+    pub growth: Vec<f64>,
+    /// Growth rate of small slow motions, or why it is unknown.
+    pub small: Result<f64, String>,
+    /// Every limit cycle up to the largest amplitude, ascending.
+    pub cycles: Vec<DescribedVibration>,
+}
+
+/// The describing functions of a system for amplitudes of the slip velocity up to `largest`.
 ///
 /// # Errors
-/// A complaint about an amplitude that is not above 0; [`Failure::Failed`] if an average has no value.
-pub fn of_belt(study: &BeltStudy, largest: f64) -> Result<DescribedFriction, Failure> {
-    refused_of_belt(study, "friction --describing")?;
+/// A complaint about an amplitude that is not above 0; [`Failure::Failed`] without averaged sliding or if an average has no value.
+pub fn run(study: &SystemStudy, largest: f64) -> Result<DescribedContacts, Failure> {
+    has_equations(study, "friction")?;
     is_amplitude(largest)?;
-    let belt = study.belt();
-    let finite_r = Averaging::FiniteR;
-    let function = DescribingFunction::of_belt(belt, finite_r).map_err(failed)?;
-    let bare = belt.undithered();
-    let without = DescribingFunction::of_belt(&bare, finite_r).map_err(failed)?;
-    Ok(DescribedFriction {
-        curve: GainCurve::new(&function, &without, largest).map_err(failed)?,
-        cycles: cycles_of(belt, &function, largest).map_err(failed)?,
-        limit: limit(belt, largest),
-    })
+    let system = study.system();
+    let prepared = DitheredSystem::new(system).map_err(failed)?;
+    let average = prepared.average().map_err(failed)?;
+    let (mut contacts, mut functions) = (Vec::new(), Vec::new());
+    for (index, contact) in system.contacts.iter().enumerate() {
+        let (velocity, normal_load) =
+            (contact.surface_velocity.mean(), average.contacts[index].normal_load);
+        let law = prepared.fast().law(system, (index, normal_load), None);
+        let law = law.map_err(failed)?;
+        let function = DescribingFunction::new(law, velocity).map_err(failed)?;
+        let bare = AveragedLaw::undithered(&contact.friction);
+        let without = DescribingFunction::new(bare, velocity).map_err(failed)?;
+        let curve = GainCurve::new(&function, &without, largest).map_err(failed)?;
+        contacts.push(DescribedContact {
+            name: contact.name.clone(),
+            velocity,
+            normal_load,
+            curve,
+        });
+        functions.push(function);
+    }
+    let balance = SlowVibration::contact_of(system).map_err(|why| why.to_string());
+    let balance = balance.and_then(|contact| {
+        balance_of(&average, contact, &functions[contact], &contacts[contact].curve)
+    });
+    let warnings = warnings(study, &average, largest);
+    let limit = LimitAveragedCycles::of(system, largest);
+    Ok(DescribedContacts { largest, contacts, balance, limit, warnings })
 }
 
-fn cycles_of(
-    belt: &Belt,
+fn balance_of(
+    average: &AveragedSliding,
+    contact: usize,
     function: &DescribingFunction,
-    largest: f64,
-) -> Result<Vec<DescribedCycle>, AveragingError> {
-    function.cycles(largest, |gain| Ok::<f64, AveragingError>(balance(belt, gain)))
+    curve: &GainCurve,
+) -> Result<SlowBalance, String> {
+    let slow = SlowVibration::new(average, contact, function);
+    let rate = |gain: f64| slow.growth_rate(gain).map_err(|why| why.to_string());
+    let cycles = slow.cycles(curve.largest).map_err(|why| why.to_string())?;
+    let growth = curve.gains().into_iter().map(rate).collect::<Result<Vec<f64>, String>>()?;
+    let small = curve.small.clone().and_then(rate);
+    Ok(SlowBalance { contact, growth, small, cycles })
 }
 
-/// The cycles in the limit of high dither frequency.
-fn limit(belt: &Belt, largest: f64) -> Result<LimitAveragedCycles, String> {
-    if belt.dithers().is_empty() {
-        return Err("the study has no dither".to_owned());
+/// Slip beyond the range of a law, contacts with a state, and loads that open.
+fn warnings(study: &SystemStudy, average: &AveragedSliding, largest: f64) -> Vec<String> {
+    let system = study.system();
+    let mut warnings = study.warnings().to_vec();
+    let contacts = system.contacts.iter().zip(&average.contacts);
+    warnings.extend(contacts.filter_map(|(contact, found): (&Contact, _)| {
+        range::at_contact(contact, found.largest_slip(contact) + largest, |speed| {
+            velocity_in_words(study, speed)
+        })
+    }));
+    warnings.extend(contact_state::averaged_without_states(system, &average.contacts));
+    warnings.extend(few_lines_of_system(system));
+    let of_load = |input: &Input| matches!(input.target, InputTarget::NormalLoad { .. });
+    if system.inputs.iter().any(of_load) {
+        warnings.push(
+            "the fast motion under dither of a load is that at the velocity of the surface; it changes over a slow motion of large \
+             amplitude"
+                .to_owned(),
+        );
     }
-    let of = || -> Result<LimitAveragedCycles, AveragingError> {
-        let function = DescribingFunction::of_belt(belt, Averaging::Limit)?;
-        let cycles = cycles_of(belt, &function, largest)?;
-        Ok(LimitAveragedCycles { small: small(&function), cycles })
-    };
-    of().map_err(|why| why.to_string())
+    warnings
 }
 
-/// 2ζ + FN₁.
-pub(crate) fn balance(belt: &Belt, gain: f64) -> f64 {
-    belt.damping_rate(gain, belt.normal_load())
-}
-
-/// The smallest stable cycle.
-fn first_stable(cycles: &[DescribedCycle]) -> Option<&DescribedCycle> {
-    cycles.iter().find(|cycle| cycle.stable)
-}
-
-impl DescribedFriction {
-    /// 2ζ + FN₁(a) at each amplitude.
-    pub fn balances(&self, study: &BeltStudy) -> Vec<f64> {
-        self.curve.gains().iter().map(|gain| balance(study.belt(), *gain)).collect()
-    }
-
+impl DescribedContacts {
     /// The smallest stable limit cycle.
     ///
     /// # Errors
     /// Why no such cycle exists up to the largest amplitude.
-    pub fn stable_cycle(&self, study: &BeltStudy) -> Result<&DescribedCycle, String> {
-        let largest = in_words(study, Quantity::Velocity, self.curve.largest);
-        first_stable(&self.cycles).ok_or_else(|| {
-            let balances = self.balances(study);
-            if balances.iter().all(|balance| *balance > 0.0) {
+    pub fn stable_cycle(&self, study: &SystemStudy) -> Result<&DescribedVibration, String> {
+        let balance = self.balance.as_ref().map_err(Clone::clone)?;
+        let largest = in_units(study.units(), Quantity::Velocity, self.largest);
+        balance.cycles.iter().find(|found| found.cycle.stable).ok_or_else(|| {
+            if balance.growth.iter().all(|rate| *rate < 0.0) {
                 format!("slow motions of every velocity amplitude up to {largest} decay")
-            } else if balances.iter().all(|balance| *balance < 0.0) {
+            } else if balance.growth.iter().all(|rate| *rate > 0.0) {
                 format!("slow motions of every velocity amplitude up to {largest} grow")
             } else {
                 format!("no stable cycle has a velocity amplitude up to {largest}")
@@ -132,50 +175,63 @@ impl DescribedFriction {
         })
     }
 
-    /// The result in one or two sentences.
-    pub fn sentence(&self, study: &BeltStudy) -> String {
-        let belt = study.belt();
-        let dithered = !belt.dithers().is_empty();
-        let which = if dithered { "friction averaged over the dither" } else { "friction" };
-        let velocity = in_words(study, Quantity::Velocity, belt.belt_velocity());
-        let words = |cycle: &DescribedCycle| in_words(study, Quantity::Velocity, cycle.amplitude);
-        let small = match &self.curve.small {
-            Ok(slope) if balance(belt, *slope) < 0.0 => "Small slow motions grow.",
+    /// The result in a few sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let units = study.units();
+        let which = if study.system().is_dithered() {
+            "friction averaged over the dither"
+        } else {
+            "friction"
+        };
+        let balance = match &self.balance {
+            Ok(balance) => balance,
+            Err(why) => {
+                return format!(
+                    "The describing function of {which} is known at every contact, but no slow vibration follows from it: {why}."
+                );
+            }
+        };
+        let contact = &self.contacts[balance.contact].name;
+        let small = match &balance.small {
+            Ok(rate) if *rate > 0.0 => "Small slow motions grow.",
             Ok(_) => "Small slow motions decay.",
             Err(_) => "The growth of small slow motions is unknown.",
         };
+        let velocity = |amplitude: f64| in_units(units, Quantity::Velocity, amplitude);
         let cycles = match self.stable_cycle(study) {
-            Ok(cycle) => {
-                let before = self
-                    .cycles
-                    .iter()
-                    .find(|other| !other.stable && other.amplitude < cycle.amplitude);
-                let from = before.map_or_else(String::new, |other| {
-                    format!(" Motions above the velocity amplitude {} grow.", words(other))
+            Ok(found) => {
+                let before = balance.cycles.iter().find(|other| {
+                    !other.cycle.stable && other.cycle.amplitude < found.cycle.amplitude
                 });
-                format!("{from} A stable limit cycle has the velocity amplitude {}.", words(cycle))
+                let from = before.map_or_else(String::new, |other| {
+                    let velocity = velocity(other.cycle.amplitude);
+                    format!(" Motions above the velocity amplitude {velocity} grow.")
+                });
+                let length = found.amplitude(&study.observe());
+                format!(
+                    "{from} A stable limit cycle {} has the velocity amplitude {} at the contact and the amplitude {} of the observed \
+                     displacement.",
+                    oscillating(units, found.frequency),
+                    velocity(found.cycle.amplitude),
+                    in_units(units, Quantity::Displacement, length)
+                )
             }
             Err(why) => format!(" No limit cycle: {why}."),
         };
-        format!("By the describing function of {which} at v₀ = {velocity}: {small}{cycles}")
+        format!("By the describing function of {which} at contact {contact}: {small}{cycles}")
     }
 
-    /// Warnings: a slow motion that reverses or sticks, normal dither, and slip beyond the range of the law.
-    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
-        let belt = study.belt();
-        let v0 = belt.belt_velocity();
-        let mut warnings = range::averaged_at(study, v0 + self.curve.largest);
-        let reverses = self.cycles.iter().any(|cycle| cycle.stable && cycle.amplitude > v0);
+    /// Warnings: a slow motion that reverses or sticks, slip beyond the range of a law, and states of contacts.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = self.warnings.clone();
+        let reverses = self.balance.as_ref().is_ok_and(|balance| {
+            let speed = self.contacts[balance.contact].velocity.abs();
+            balance.cycles.iter().any(|found| found.cycle.stable && found.cycle.amplitude > speed)
+        });
         if reverses {
             warnings.push(
-                "the slow velocity of the limit cycle exceeds the belt velocity: the mass may stick in each slow period, so that \
-                 the motion is no sinusoid; response gives its amplitude"
-                    .to_owned(),
-            );
-        }
-        if belt.dithers_along(Direction::Normal).next().is_some() {
-            warnings.push(
-                "the fast motion under normal dither is that at the belt velocity; it changes over a slow motion of large amplitude"
+                "the slow velocity of the limit cycle exceeds the velocity of the surface: the contact may stick in each slow period, so \
+                 that the motion is no sinusoid; response gives its amplitude"
                     .to_owned(),
             );
         }
@@ -183,73 +239,98 @@ impl DescribedFriction {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &BeltStudy) -> Json {
-        let mut fields = Fields::new(study.scales());
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let empty = || Fields::of_system(study.units());
+        let mut fields = empty();
+        let observe = study.observe();
+        let stable = self.stable_cycle(study);
+        let of = |pick: &dyn Fn(&DescribedVibration) -> f64| stable.clone().map(pick);
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .number("belt_velocity", Quantity::Velocity, study.belt().belt_velocity())
-            .known("small_gain", Quantity::PerVelocity, self.curve.small.clone())
-            .known(
-                "limit_cycle_velocity",
-                Quantity::Velocity,
-                self.stable_cycle(study).map(|cycle| cycle.amplitude),
-            )
+            .known("limit_cycle_velocity", Quantity::Velocity, of(&|found| found.cycle.amplitude))
             .known(
                 "limit_cycle_amplitude",
                 Quantity::Displacement,
-                self.stable_cycle(study).map(|cycle| cycle.amplitude),
-            );
-        let empty = || Fields::new(study.scales());
-        fields.list("limit_cycles", put_cycles(&self.cycles, &empty));
-        self.put_limit(study, &mut fields);
-        self.curve.put(&mut fields);
-        fields
-            .numbers("balance", Quantity::Ratio, &self.balances(study))
-            .plain("warnings", self.warnings(study));
+                of(&|found| found.amplitude(&observe)),
+            )
+            .known("limit_cycle_frequency", Quantity::FrequencyRatio, of(&|found| found.frequency));
+        match &self.balance {
+            Ok(balance) => {
+                let cycles = balance.cycles.iter().map(|found| {
+                    let mut inner = empty();
+                    inner
+                        .number("velocity_amplitude", Quantity::Velocity, found.cycle.amplitude)
+                        .number("velocity_amplitude_error", Quantity::Velocity, found.cycle.error)
+                        .number("amplitude", Quantity::Displacement, found.amplitude(&observe))
+                        .number("frequency", Quantity::FrequencyRatio, found.frequency)
+                        .plain("stable", found.cycle.stable);
+                    inner
+                });
+                let growth: Vec<Option<f64>> = balance.growth.iter().copied().map(Some).collect();
+                fields
+                    .plain("balanced_contact", self.contacts[balance.contact].name.as_str())
+                    .list("limit_cycles", cycles.collect::<Vec<_>>())
+                    .rate("small_growth_rate", balance.small.clone())
+                    .rates("growth_rate", &growth, "unknown");
+            }
+            Err(why) => {
+                for name in ["balanced_contact", "limit_cycles", "growth_rate"] {
+                    fields.unknown(name, why.as_str());
+                }
+                fields.rate("small_growth_rate", Err(why.clone()));
+            }
+        }
+        let contacts = self.contacts.iter().map(|contact| {
+            let mut inner = empty();
+            inner
+                .plain("name", contact.name.as_str())
+                .number("slip_velocity", Quantity::Velocity, contact.velocity)
+                .number("normal_load", Quantity::Force, contact.normal_load)
+                .known("small_gain", Quantity::PerVelocity, contact.curve.small.clone());
+            contact.curve.put(&mut inner);
+            inner
+        });
+        fields.list("contacts", contacts.collect::<Vec<_>>());
+        match &self.limit {
+            Some(Ok(limit)) => {
+                fields.nested("limit", limit.fields(study, self.largest));
+            }
+            Some(Err(why)) => {
+                fields.unknown("limit", why.as_str());
+            }
+            None => {}
+        }
+        fields.plain("warnings", self.warnings());
         fields.finish()
     }
 
-    /// The cycles in the limit of high dither frequency.
-    fn put_limit(&self, study: &BeltStudy, fields: &mut Fields) {
-        let empty = || Fields::new(study.scales());
-        let found = match &self.limit {
-            Ok(found) => found,
-            Err(why) => {
-                fields.unknown("limit", why.as_str());
-                return;
-            }
+    /// As a dataset, one row for each contact and amplitude.
+    pub fn dataset(&self, study: &SystemStudy) -> Dataset {
+        let names: Vec<&str> = self.contacts.iter().map(|contact| contact.name.as_str()).collect();
+        let rows = |of: &dyn Fn(&GainCurve) -> Vec<f64>| -> Vec<f64> {
+            self.contacts.iter().flat_map(|contact| of(&contact.curve)).collect()
         };
-        let mut inner = empty();
-        let stable = first_stable(&found.cycles).map(|cycle| cycle.amplitude);
-        let largest = in_words(study, Quantity::Velocity, self.curve.largest);
-        let stable = stable
-            .ok_or_else(|| format!("no stable cycle has a velocity amplitude up to {largest}"));
-        inner
-            .known("small_gain", Quantity::PerVelocity, found.small.clone())
-            .known("limit_cycle_velocity", Quantity::Velocity, stable.clone())
-            .known("limit_cycle_amplitude", Quantity::Displacement, stable)
-            .list("limit_cycles", put_cycles(&found.cycles, &empty));
-        fields.nested("limit", inner);
+        let each = self.contacts.iter().enumerate();
+        let place: Vec<f64> = each
+            .flat_map(|(index, contact)| vec![index as f64; contact.curve.points.len()])
+            .collect();
+        let numbers = (0..place.len()).map(|row| row as f64).collect();
+        let growth =
+            self.contacts.iter().enumerate().flat_map(|(index, contact)| match &self.balance {
+                Ok(balance) if balance.contact == index => balance.growth.clone(),
+                _ => vec![f64::NAN; contact.curve.points.len()],
+            });
+        let rate = if study.units() == UnitSystem::None { "1" } else { "1/s" };
+        Dataset::of(&study.into(), "friction")
+            .fact(self.sentence(study))
+            .fact(format!("contacts: {}", names.join(", ")))
+            .with_axis(Array::new("row", "1", numbers))
+            .with(Array::new("contact_number", "1", place))
+            .array("velocity_amplitude", Quantity::Velocity, rows(&GainCurve::amplitudes))
+            .array("mean_coefficient", Quantity::Ratio, rows(&GainCurve::coefficients))
+            .per_velocity("gain", rows(&GainCurve::gains))
+            .per_velocity("undithered_gain", rows(&GainCurve::undithered_gains))
+            .with(Array::new("growth_rate", rate, growth.collect()))
     }
-
-    /// As a dataset.
-    pub fn dataset(&self, study: &BeltStudy) -> Dataset {
-        let dataset = Dataset::new(study, "friction").fact(self.sentence(study));
-        self.curve.columns(dataset).array("balance", Quantity::Ratio, self.balances(study))
-    }
-}
-
-/// The cycles of a belt: the velocity amplitude is that of the displacement too.
-fn put_cycles(cycles: &[DescribedCycle], empty: &impl Fn() -> Fields) -> Vec<Fields> {
-    let each = cycles.iter().map(|cycle| {
-        let mut inner = empty();
-        inner
-            .number("velocity_amplitude", Quantity::Velocity, cycle.amplitude)
-            .number("amplitude", Quantity::Displacement, cycle.amplitude)
-            .number("velocity_amplitude_error", Quantity::Velocity, cycle.error)
-            .plain("stable", cycle.stable);
-        inner
-    });
-    each.collect()
 }
