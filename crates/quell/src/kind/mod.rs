@@ -70,7 +70,7 @@ pub trait Verbs: Send + Sync {
     /// Averaged friction under a slow sinusoid of the slip velocity, for velocity amplitudes up to one.
     ///
     /// # Errors
-    /// A kind without this verb; as [`crate::run::describing::of_belt`].
+    /// A kind without this verb; as [`crate::run::describing::run`].
     fn describing(&self, largest: f64) -> Reply {
         let _ = largest;
         Err(self.lacks("friction --describing"))
