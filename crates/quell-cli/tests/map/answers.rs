@@ -6,6 +6,17 @@ use serde_json::Value as Json;
 
 use crate::place::{Place, SMALL, STUDY, same};
 
+/// Averages of the same motion, found in another way: growth rates of a map of belts are closed forms of the criterion, those of
+/// `stability` eigenvalues.
+fn same_average(one: Option<f64>, other: Option<f64>) {
+    let close = one.zip(other).map(|(one, other)| (one / other - 1.0).abs() < 1e-12);
+    assert!(close.unwrap_or(one == other), "{one:?} {other:?}");
+}
+
+fn same_growth(one: &Json, other: &Json) {
+    same_average(one.as_f64(), other.as_f64());
+}
+
 #[test]
 fn a_point_of_a_map_has_the_same_bits_as_a_single_computation() {
     let place = Place::new("alone");
@@ -32,11 +43,12 @@ fn a_point_of_a_map_has_the_same_bits_as_a_single_computation() {
                 assert_eq!(map[name][i][j], steady[name], "{name} {set:?}");
             }
             assert_eq!(map["criterion"][i][j], averaged["criterion"]);
-            assert_eq!(map["growth"][i][j], averaged["growth_rate"]);
             assert_eq!(map["verdict"][i][j], averaged["verdict"]);
-            let critical = averaged["critical_amplitudes"].as_array().expect("a list");
-            let lowest = critical.first().map_or(&Json::Null, |first| &first["amplitude_ratio"]);
-            assert_eq!(&map["critical_amplitude"][i][j], lowest);
+            same_growth(&map["growth"][i][j], &averaged["growth_rate"]);
+            // The frequency ratio of the study is 10: maps have the amplitude over it.
+            let critical = &averaged["critical_amplitudes"][0]["amplitude"];
+            let ratio = critical.as_f64().map(|critical| critical / 10.0);
+            same_average(map["critical_amplitude"][i][j].as_f64(), ratio);
             // The undithered belt at v₀ = 0.5 settles to sliding: E is reported as unknown.
             let known = map["residual_vibration_status"][i][j] == "known";
             assert_eq!(known, map["residual_vibration"][i][j].is_number());
@@ -196,7 +208,7 @@ values = [1, 2.5]
             let set = [format!("dither.frequency_hz={written:?}"), format!("belt.mass_kg={mass}")];
             let alone = |verb| place.good(&[verb, "si.toml", "--set", &set[0], "--set", &set[1]]);
             assert_eq!(map["mean_friction"][i][j], alone("response")["mean_friction"]);
-            assert_eq!(map["growth"][i][j], alone("stability")["growth_rate"]);
+            same_growth(&map["growth"][i][j], &alone("stability")["growth_rate"]);
         }
     }
 }
