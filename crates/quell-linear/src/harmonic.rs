@@ -154,7 +154,12 @@ fn dynamic_stiffness(linear: &Linearised, frequency: f64) -> (ComplexMatrix, Com
 }
 
 /// Entry i of the force of an input with û = 1.
-fn force_on(system: &System, linear: &Linearised, target: &InputTarget, i: usize) -> f64 {
+pub(crate) fn force_on(
+    system: &System,
+    linear: &Linearised,
+    target: &InputTarget,
+    i: usize,
+) -> f64 {
     let contact = |index: usize| linear.contacts().get(index);
     match target {
         InputTarget::Force(row) => row[i],

@@ -93,8 +93,19 @@ pub(super) enum WaveShape {
     Harmonics(Vec<(u32, Complex64, Vec<ContactResponse>)>),
     /// By polynomials: fast slip and fast load of every contact over the phase of the wave.
     Polynomials(Vec<[Arc<PeriodicPolynomial>; 2]>),
+    /// By a closed form: the motion of one coordinate without its damper, with what it is at every contact.
+    Closed { wave: FastWave, contacts: Vec<ClosedResponse> },
     /// Of noise: the response at each line.
     Lines(Vec<Vec<ContactResponse>>),
+}
+
+/// What a closed form is at a contact for unit amplitude of the wave.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ClosedResponse {
+    /// Factor of the fast slip s.
+    pub(super) slip: f64,
+    /// Factor of the waveform in the fast load.
+    pub(super) load: f64,
 }
 
 impl WaveResponse {
@@ -424,6 +435,23 @@ impl GroupParts {
                 self.slip_terms[own].push(SlipTerm { wave, amplitude, harmonic, phase });
                 let (wave, amplitude) = (LoadWave::Response(load.clone()), load_amplitude);
                 if wave.peak() > 0.0 {
+                    self.load_terms.push(LoadTerm { wave, amplitude, harmonic, phase });
+                }
+            }
+            WaveShape::Closed { wave, contacts } => {
+                let ClosedResponse { slip, load } = contacts[contact];
+                let waveform = &response.wave.waveform;
+                let harmonic = multiple * waveform.cycles();
+                let amplitude = slip_amplitude * slip;
+                self.slip_terms[own].push(SlipTerm {
+                    wave: wave.clone(),
+                    amplitude,
+                    harmonic,
+                    phase,
+                });
+                if load != 0.0 {
+                    let (wave, amplitude) =
+                        (LoadWave::Waveform(waveform.clone()), load_amplitude * load);
                     self.load_terms.push(LoadTerm { wave, amplitude, harmonic, phase });
                 }
             }

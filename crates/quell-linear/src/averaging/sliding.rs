@@ -23,7 +23,8 @@ use quell_numerics::matrix::Matrix;
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 use super::error::AveragingError;
-use super::fast_inputs::{DitheredContact, FastInputs, WaveResponse, WaveShape};
+use super::fast_inputs::{ClosedResponse, DitheredContact, FastInputs, WaveResponse, WaveShape};
+use super::wave::FastWave;
 use crate::growth::Growth;
 use crate::harmonic::{self, ContactResponse, DrivenEquations};
 use crate::linearised::{FrictionSlopes, Linearised};
@@ -94,7 +95,13 @@ impl<'a> DitheredSystem<'a> {
         let mut waves = Vec::new();
         for (input, given) in system.inputs.iter().enumerate() {
             for wave in given.profile.waves().iter().cloned() {
-                waves.push(wave_response(moved.0, moved.1, (input, &given.target), wave)?);
+                let closed = undamped.as_ref();
+                let closed =
+                    closed.and_then(|mass| closed_form(mass, &sliding, &given.target, &wave));
+                waves.push(match closed {
+                    Some(shape) => WaveResponse { input, wave, shape },
+                    None => wave_response(moved.0, moved.1, (input, &given.target), wave)?,
+                });
             }
         }
         Ok(Self { system, sliding, fast: FastInputs::of(waves)? })
@@ -157,7 +164,7 @@ impl<'a> DitheredSystem<'a> {
                 }
                 // No periodic orbit exists, for which this would be a first guess.
                 WaveShape::Lines(_) => continue,
-                WaveShape::Polynomials(_) => {
+                WaveShape::Polynomials(_) | WaveShape::Closed { .. } => {
                     let Wave { waveform, amplitude, frequency, phase, .. } = &response.wave;
                     let equations = driven(self.system, &self.sliding, target)?;
                     let moved = ResponseToWave::new(
@@ -254,6 +261,35 @@ fn driven(
     target: &InputTarget,
 ) -> Result<DrivenEquations, NoSteadySliding> {
     DrivenEquations::new(system, sliding, target).ok_or(NoSteadySliding::NoMass)
+}
+
+/// The response of one coordinate without its damper to a triangle or a square in closed form; `None` of other waveforms, which have
+/// harmonics or pieces, and where a load follows the motion.
+fn closed_form(
+    system: &System,
+    sliding: &Linearised,
+    target: &InputTarget,
+    wave: &Wave,
+) -> Option<WaveShape> {
+    let waveform = wave.waveform.clone();
+    let follows = system.contacts.iter().any(|contact| contact.normal.is_some());
+    if !waveform.is_symmetric() || waveform == Waveform::Sine || follows {
+        return None;
+    }
+    let mechanical = system.structure.mechanical()?;
+    let mass = mechanical.mass().matrix()[(0, 0)];
+    let rate = (mechanical.stiffness()[(0, 0)] / mass).sqrt();
+    let force = harmonic::force_on(system, sliding, target, 0);
+    let own = |index: usize| matches!(target, InputTarget::NormalLoad { contact, .. } if *contact == index);
+    // The velocity under a force F g is F/(Mω) times the shape, and friction is μ(v − s).
+    let velocity = force / (mass * wave.frequency);
+    let contacts = system.contacts.iter().enumerate().map(|(index, contact)| ClosedResponse {
+        slip: velocity * contact.tangent.as_ref().map_or(0.0, |tangent| tangent[0]),
+        load: f64::from(u8::from(own(index))),
+    });
+    let contacts = contacts.collect();
+    let frequency_ratio = wave.frequency / rate;
+    Some(WaveShape::Closed { wave: FastWave::Oscillator { waveform, frequency_ratio }, contacts })
 }
 
 /// The response to one wave.

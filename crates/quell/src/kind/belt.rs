@@ -68,7 +68,9 @@ impl Verbs for BeltStudy {
     }
 
     fn describing(&self, largest: f64) -> Reply {
-        belt_system::described(self)?.describing(largest)
+        // The amplitude comes in the numbers of the equations.
+        let one = self.scales().map_or(1.0, |scales| scales.to_units(Quantity::Velocity, 1.0));
+        belt_system::described(self)?.describing(one * largest)
     }
 
     fn stability(&self) -> Reply {
