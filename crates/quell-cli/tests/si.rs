@@ -587,3 +587,13 @@ fn a_belt_in_millimetres_is_that_in_metres() {
     };
     assert_eq!([warnings("m.toml"), warnings("mm.toml")], [true, false]);
 }
+
+/// The largest slow velocity of a belt in SI is in metres per second, as its curve and its cycle are.
+#[test]
+fn a_slow_amplitude_is_in_metres_per_second() {
+    let place = place("si_describing");
+    let found = place.good(&["friction", "pad.toml", "--describing", "0.2m/s"]);
+    let amplitudes = found["contacts"][0]["velocity_amplitude"].as_array().expect("a curve");
+    assert_eq!(amplitudes.last(), Some(&0.2.into()));
+    assert_eq!(found, place.good(&["friction", "pad.toml", "--describing", "0.2"]));
+}

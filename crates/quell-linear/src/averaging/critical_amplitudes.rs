@@ -21,6 +21,7 @@ use super::dithers::Averaging;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::periodic::Signal;
+use super::periodic_motion::PeriodicMotion;
 use super::sign_changes::{CrossingKind, grown, sign_changes};
 
 /// Stability of steady sliding after a change of sign.
@@ -81,7 +82,7 @@ pub fn critical_amplitudes_up_to(
     };
     let averages = BeltAverages::new(belt, belt.belt_velocity(), averaging)?;
     let probe = Probe { belt, frequency_ratio: first.frequency_ratio, averages };
-    let largest = largest / first.frequency_ratio;
+    let largest = (largest / first.frequency_ratio).min(probe.end_of_expansion()?);
     let mut corners = probe.corners()?;
     let scale = corners
         .iter()
@@ -156,6 +157,22 @@ impl Probe<'_> {
 
     fn motion(&self, alpha: f64) -> Result<FastMotion, AveragingError> {
         Ok(self.law(alpha)?.motion().clone())
+    }
+
+    /// The amplitude at which the second order of the motion under normal dither is as large as the first: beyond it the expansion
+    /// (4.23) says nothing. Infinite where only the first order is kept.
+    fn end_of_expansion(&self) -> Result<f64, AveragingError> {
+        let unit = self.motion(1.0)?;
+        let share = |group: &PeriodicMotion| {
+            let peaks = group.normal.iter().map(|term| term.amplitude.abs() * term.wave.peak());
+            group.distortion.abs() * peaks.sum::<f64>()
+        };
+        let most = unit.groups().iter().map(share).fold(0.0, f64::max);
+        Ok(if self.belt.dithers()[0].direction == Direction::Normal {
+            1.0 / most
+        } else {
+            f64::INFINITY
+        })
     }
 
     fn criterion(&self, alpha: f64) -> Result<f64, AveragingError> {
