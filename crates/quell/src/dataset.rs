@@ -155,6 +155,17 @@ impl Dataset {
         self
     }
 
+    /// One row for each entry of each contact, given by its name and the number of its entries.
+    pub(crate) fn by_contact<'a>(self, contacts: impl Iterator<Item = (&'a str, usize)>) -> Self {
+        let (names, counts): (Vec<&str>, Vec<usize>) = contacts.unzip();
+        let counts = counts.into_iter().enumerate();
+        let place: Vec<f64> = counts.flat_map(|(index, count)| vec![index as f64; count]).collect();
+        let rows = (0..place.len()).map(|row| row as f64).collect();
+        self.fact(format!("contacts: {}", names.join(", ")))
+            .with_axis(Array::new("row", "1", rows))
+            .with(Array::new("contact_number", "1", place))
+    }
+
     /// Adds an axis without conversion.
     #[must_use]
     pub fn with_axis(mut self, axis: Array) -> Self {

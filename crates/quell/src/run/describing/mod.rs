@@ -307,15 +307,11 @@ impl DescribedContacts {
 
     /// As a dataset, one row for each contact and amplitude.
     pub fn dataset(&self, study: &SystemStudy) -> Dataset {
-        let names: Vec<&str> = self.contacts.iter().map(|contact| contact.name.as_str()).collect();
+        let counts =
+            self.contacts.iter().map(|contact| (contact.name.as_str(), contact.curve.points.len()));
         let rows = |of: &dyn Fn(&GainCurve) -> Vec<f64>| -> Vec<f64> {
             self.contacts.iter().flat_map(|contact| of(&contact.curve)).collect()
         };
-        let each = self.contacts.iter().enumerate();
-        let place: Vec<f64> = each
-            .flat_map(|(index, contact)| vec![index as f64; contact.curve.points.len()])
-            .collect();
-        let numbers = (0..place.len()).map(|row| row as f64).collect();
         let growth =
             self.contacts.iter().enumerate().flat_map(|(index, contact)| match &self.balance {
                 Ok(balance) if balance.contact == index => balance.growth.clone(),
@@ -324,9 +320,7 @@ impl DescribedContacts {
         let rate = if study.units() == UnitSystem::None { "1" } else { "1/s" };
         Dataset::of(&study.into(), "friction")
             .fact(self.sentence(study))
-            .fact(format!("contacts: {}", names.join(", ")))
-            .with_axis(Array::new("row", "1", numbers))
-            .with(Array::new("contact_number", "1", place))
+            .by_contact(counts)
             .array("velocity_amplitude", Quantity::Velocity, rows(&GainCurve::amplitudes))
             .array("mean_coefficient", Quantity::Ratio, rows(&GainCurve::coefficients))
             .per_velocity("gain", rows(&GainCurve::gains))

@@ -13,7 +13,7 @@ use serde_json::Value as Json;
 
 use super::{has_equations, velocity_in_words};
 use crate::complaint::Failure;
-use crate::dataset::{Array, Dataset};
+use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::noise::few_lines_of_system;
 use crate::parallel::Parallel;
@@ -157,19 +157,13 @@ impl SystemFriction {
 
     /// As a dataset, one row for each contact and slip velocity.
     pub fn dataset(&self, study: &SystemStudy) -> Dataset {
-        let names: Vec<&str> = self.contacts.iter().map(|contact| contact.name.as_str()).collect();
+        let counts =
+            self.contacts.iter().map(|contact| (contact.name.as_str(), contact.curve.points.len()));
         let rows = |of: &dyn Fn(&FrictionCurve) -> Vec<f64>| -> Vec<f64> {
             self.contacts.iter().flat_map(|contact| of(&contact.curve)).collect()
         };
-        let each = self.contacts.iter().enumerate();
-        let place: Vec<f64> = each
-            .flat_map(|(index, contact)| vec![index as f64; contact.curve.points.len()])
-            .collect();
-        let numbers = (0..place.len()).map(|row| row as f64).collect();
         Dataset::of(&study.into(), "friction")
-            .fact(format!("contacts: {}", names.join(", ")))
-            .with_axis(Array::new("row", "1", numbers))
-            .with(Array::new("contact_number", "1", place))
+            .by_contact(counts)
             .array("slip_velocity", Quantity::Velocity, rows(&FrictionCurve::slip_velocities))
             .array("coefficient", Quantity::Ratio, rows(&FrictionCurve::coefficients))
             .array(
