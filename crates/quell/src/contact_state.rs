@@ -28,7 +28,7 @@ const OF_PERIODIC_DITHER: &[&str] = &[
     "stability --exact",
 ];
 
-/// Rejects a verb on a belt whose contact has a state of its own, or, except for averages, whose dither is noise.
+/// Rejects a verb on a belt whose contact has a state of its own, or whose dither is noise.
 ///
 /// # Errors
 /// A complaint about the key that gives the contact its state, or the noise its waveform.

@@ -149,11 +149,7 @@ fn undithered(system: &System) -> Result<(MotionSpectrum, Vec<SlidingContact>, f
 
 /// The warning about motions that are not much slower than the dither.
 fn not_slow(study: &SystemStudy, slow: &MotionSpectrum) -> Option<String> {
-    let lowest = |wave: &Wave| match wave.waveform.noise() {
-        Some(_) => wave.frequency * wave.waveform.lowest_multiple(),
-        None => wave.repetition(),
-    };
-    let slowest = study.system().waves().map(lowest).fold(f64::INFINITY, f64::min);
+    let slowest = study.system().waves().map(Wave::lowest).fold(f64::INFINITY, f64::min);
     let near = upper(slow).filter(|motion| natural(motion) * FAST > slowest);
     let distance = |motion: &SmallMotion| (natural(motion) - slowest).abs();
     let nearest = near.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
@@ -264,8 +260,8 @@ impl SlidingStability {
                 rate_of(units, rate)
             ),
             Verdict::Undecided if self.at_corner() => {
-                "the stability of steady sliding is undecided: a surface is exactly as fast as the fast motion; slightly faster ones are \
-                 unstable, and slightly slower ones are not"
+                "the stability of steady sliding is undecided: a surface is exactly as fast as the fast motion, where mean friction has \
+                 two slopes; with that of slightly faster surfaces it is unstable"
                     .to_owned()
             }
             Verdict::Undecided if !error.is_finite() => {
