@@ -55,10 +55,7 @@ pub fn response(
     };
     let contacts = linear.contacts().iter().enumerate().map(|(index, contact)| {
         let (stiffness, damping) = contact.normal_spring();
-        let direct = match target {
-            InputTarget::NormalLoad { contact, .. } if *contact == index => 1.0,
-            _ => 0.0,
-        };
+        let direct = own_load(target, index);
         ContactResponse {
             slip: -rate * along(contact.tangent()),
             load: (s * damping + stiffness) * along(contact.normal()) + direct,
@@ -151,6 +148,14 @@ fn dynamic_stiffness(linear: &Linearised, frequency: f64) -> (ComplexMatrix, Com
         dynamic.subtract(Complex64::new(friction, 0.0), across, contact.slope_row());
     }
     (dynamic, s)
+}
+
+/// What a unit of an input adds to the load of a contact directly.
+pub(crate) fn own_load(target: &InputTarget, index: usize) -> f64 {
+    match target {
+        InputTarget::NormalLoad { contact, .. } if *contact == index => 1.0,
+        _ => 0.0,
+    }
 }
 
 /// Entry i of the force of an input with û = 1.

@@ -183,6 +183,14 @@ fn averages_of_bursts_and_samples() {
     }
 }
 
+/// A burst that repeats itself at the resonance of one mass: the damper bounds its motion, and without one it has no average.
+#[test]
+fn a_burst_at_resonance_keeps_the_damper() {
+    let burst = || Burst::new(Waveform::Sine, 2, 1).unwrap().into_waveform();
+    let of = |damping| criterion(&belt(damping, dither(burst(), 0.1, 3.0)), Averaging::FiniteR);
+    assert!(of(0.05).is_ok() && of(0.0).is_err());
+}
+
 /// A thousand held samples of a sine have its critical amplitudes, in the limit and at finite R, as do lines between them.
 #[test]
 fn many_samples_of_a_sine() {

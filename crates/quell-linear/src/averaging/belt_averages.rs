@@ -52,7 +52,7 @@ impl<'a> BeltAverages<'a> {
                     // An average is that of the rigid law.
                     contact.tangential_stiffness = None;
                 }
-                let fast = DitheredSystem::with_fast_motion(&system)?.fast().clone();
+                let fast = DitheredSystem::with_fast_motion(&system)?.into_fast();
                 BeltFast::FiniteR(Box::new((system, fast)))
             }
         };

@@ -74,9 +74,9 @@ impl Criterion {
 ///
 /// # Errors
 /// [`AveragingError`], in particular [`AveragingError::SetValued`] for a belt at rest without tangential dither.
-pub fn criterion(belt: &Belt, options: Averaging) -> Result<Criterion, AveragingError> {
+pub fn criterion(belt: &Belt, averaging: Averaging) -> Result<Criterion, AveragingError> {
     let v = belt.belt_velocity();
-    let law = AveragedLaw::of_belt(belt, v, options)?;
+    let law = AveragedLaw::of_belt(belt, v, averaging)?;
     let effective = law.at(law.motion().at_corner(v)?)?;
     Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective))
 }

@@ -41,11 +41,14 @@
 //! | `slow_vibration` | the slow vibration of a system by harmonic balance with that gain |
 //! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
 //! | `critical_amplitudes`, `edges`, `everywhere_stable`, `everywhere_stable_noise` | points at which the verdict changes: along α, along v₀, and α^L |
+//! | `wave_response` | the response of a sliding structure to one wave |
+//! | `contact_motion`, `fast_inputs` | the fast motion at one contact, and at all contacts for any amplitudes |
 //! | `sliding`, `sliding_critical` | averaged sliding of systems of any number of contacts, and its critical amplitudes |
 //! | `sign_changes` | every change of sign of a function on a grid |
 
 mod averaged_law;
 mod belt_averages;
+mod contact_motion;
 mod criterion;
 mod critical_amplitudes;
 mod decreasing;
@@ -71,6 +74,7 @@ mod sliding_critical;
 mod slow_vibration;
 mod stribeck;
 mod wave;
+mod wave_response;
 
 pub use averaged_law::AveragedLaw;
 pub use criterion::{AveragedVerdict, Criterion, UndecidedBecause, criterion};

@@ -14,19 +14,16 @@
 //! under the other dithers, and carried to second order, as of the mass above its resonance (4.23): s = S − (μ′/2μ)(S² − ⟨S²⟩).
 
 use num_complex::Complex64;
+use quell_model::System;
 use quell_model::profile::Wave;
-use quell_model::system::{Contact, Input, InputTarget, Mechanical};
-use quell_model::waveform::NoiseLine;
-use quell_model::{System, Waveform};
+use quell_model::system::{Contact, Input, InputTarget};
 use quell_numerics::eigen::{EigenError, modulus};
-use quell_numerics::matrix::Matrix;
-use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 use super::error::AveragingError;
-use super::fast_inputs::{ClosedResponse, DitheredContact, FastInputs, WaveResponse, WaveShape};
-use super::wave::FastWave;
+use super::fast_inputs::{DitheredContact, FastInputs};
+use super::wave_response::{WaveResponse, WaveShape, driven, without_damper};
 use crate::growth::Growth;
-use crate::harmonic::{self, ContactResponse, DrivenEquations};
+use crate::harmonic::{self, ContactResponse};
 use crate::linearised::{FrictionSlopes, Linearised};
 use crate::periodic_response::ResponseToWave;
 use crate::spectrum::{self, MotionSpectrum};
@@ -91,17 +88,15 @@ impl<'a> DitheredSystem<'a> {
         let sliding = sliding_under_dither(system)?;
         let undamped = without_damper(system);
         let about = undamped.as_ref().map(sliding_under_dither).transpose()?;
-        let moved = (undamped.as_ref().unwrap_or(system), about.as_ref().unwrap_or(&sliding));
+        let moved = undamped.as_ref().zip(about.as_ref());
         let mut waves = Vec::new();
         for (input, given) in system.inputs.iter().enumerate() {
             for wave in given.profile.waves().iter().cloned() {
-                let closed = undamped.as_ref();
-                let closed =
-                    closed.and_then(|mass| closed_form(mass, &sliding, &given.target, &wave));
-                waves.push(match closed {
-                    Some(shape) => WaveResponse { input, wave, shape },
-                    None => wave_response(moved.0, moved.1, (input, &given.target), wave)?,
-                });
+                let shape = match moved {
+                    Some((mass, about)) => WaveShape::undamped(mass, about, &given.target, &wave)?,
+                    None => WaveShape::of(system, &sliding, &given.target, &wave)?,
+                };
+                waves.push(WaveResponse { input, wave, shape });
             }
         }
         Ok(Self { system, sliding, fast: FastInputs::of(waves)? })
@@ -115,6 +110,11 @@ impl<'a> DitheredSystem<'a> {
     /// What the dithers do to the contacts.
     pub fn fast(&self) -> &FastInputs {
         &self.fast
+    }
+
+    /// The same without the system.
+    pub(super) fn into_fast(self) -> FastInputs {
+        self.fast
     }
 
     /// The system.
@@ -219,29 +219,6 @@ fn sliding_under_dither(system: &System) -> Result<Linearised, AveragingError> {
     }
 }
 
-/// A structure of one coordinate without its damper, for the fast motion under dither above its resonance: at a stability boundary the
-/// damper cancels with the slope of friction, which the fast motion leaves out. Other structures keep their dampers.
-fn without_damper(system: &System) -> Option<System> {
-    let mechanical = system.structure.mechanical().filter(|one| one.by_speed().is_none())?;
-    if mechanical.size() != 1 {
-        return None;
-    }
-    let resonance = (mechanical.stiffness()[(0, 0)] / mechanical.mass().matrix()[(0, 0)]).sqrt();
-    let lowest = |wave: &Wave| match wave.waveform.noise() {
-        Some(_) => wave.frequency * wave.waveform.lowest_multiple(),
-        None => wave.frequency,
-    };
-    let slowest = system.waves().map(lowest).fold(f64::INFINITY, f64::min);
-    let undamped = Mechanical::new(
-        mechanical.coordinates().to_vec(),
-        mechanical.mass().clone(),
-        Matrix::zeros(1, 1),
-        mechanical.stiffness().clone(),
-    );
-    let structure = undamped.under(mechanical.force().to_vec()).into();
-    (slowest > resonance).then(|| System { structure, ..system.clone() })
-}
-
 /// A system with surfaces at rest, where the mean of friction vanishes if dither moves the contact; only of dither that is faster than
 /// every motion.
 fn dithered_at_rest(system: &System, why: NoSteadySliding) -> Result<Linearised, AveragingError> {
@@ -252,97 +229,4 @@ fn dithered_at_rest(system: &System, why: NoSteadySliding) -> Result<Linearised,
     let fastest = motions.iter().map(|motion| modulus(motion.eigenvalue)).fold(0.0, f64::max);
     let slowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
     if slowest > fastest { Ok(sliding) } else { Err(why.into()) }
-}
-
-/// The equations of the sliding structure under an input.
-fn driven(
-    system: &System,
-    sliding: &Linearised,
-    target: &InputTarget,
-) -> Result<DrivenEquations, NoSteadySliding> {
-    DrivenEquations::new(system, sliding, target).ok_or(NoSteadySliding::NoMass)
-}
-
-/// The response of one coordinate without its damper to a triangle or a square in closed form; `None` of other waveforms, which have
-/// harmonics or pieces, and where a load follows the motion.
-fn closed_form(
-    system: &System,
-    sliding: &Linearised,
-    target: &InputTarget,
-    wave: &Wave,
-) -> Option<WaveShape> {
-    let waveform = wave.waveform.clone();
-    let follows = system.contacts.iter().any(|contact| contact.normal.is_some());
-    if !waveform.is_symmetric() || waveform == Waveform::Sine || follows {
-        return None;
-    }
-    let mechanical = system.structure.mechanical()?;
-    let mass = mechanical.mass().matrix()[(0, 0)];
-    let rate = (mechanical.stiffness()[(0, 0)] / mass).sqrt();
-    let force = harmonic::force_on(system, sliding, target, 0);
-    let own = |index: usize| matches!(target, InputTarget::NormalLoad { contact, .. } if *contact == index);
-    // The velocity under a force F g is F/(Mω) times the shape, and friction is μ(v − s).
-    let velocity = force / (mass * wave.frequency);
-    let contacts = system.contacts.iter().enumerate().map(|(index, contact)| ClosedResponse {
-        slip: velocity * contact.tangent.as_ref().map_or(0.0, |tangent| tangent[0]),
-        load: f64::from(u8::from(own(index))),
-    });
-    let contacts = contacts.collect();
-    let frequency_ratio = wave.frequency / rate;
-    Some(WaveShape::Closed { wave: FastWave::Oscillator { waveform, frequency_ratio }, contacts })
-}
-
-/// The response to one wave.
-fn wave_response(
-    system: &System,
-    sliding: &Linearised,
-    (input, target): (usize, &InputTarget),
-    wave: Wave,
-) -> Result<WaveResponse, AveragingError> {
-    let at = |n: u32| {
-        let frequency = f64::from(n) * wave.frequency;
-        harmonic::response(system, sliding, target, frequency)
-            .map(|response| response.contacts)
-            .ok_or(AveragingError::Resonance { frequency })
-    };
-    if let Some(known) = wave.waveform.harmonics() {
-        let harmonics: Result<Vec<_>, AveragingError> = known
-            .iter()
-            .map(|h| Ok((h.order, Complex64::new(h.sine, h.cosine), at(h.order)?)))
-            .collect();
-        let shape = WaveShape::Harmonics(harmonics?);
-        return Ok(WaveResponse { input, wave, shape });
-    }
-    if wave.waveform == Waveform::Sine {
-        let shape = WaveShape::Harmonics(vec![(1, Complex64::ONE, at(1)?)]);
-        return Ok(WaveResponse { input, wave, shape });
-    }
-    if let Some(noise) = wave.waveform.noise() {
-        let line = |line: &NoiseLine| {
-            let frequency = line.ratio * wave.frequency;
-            harmonic::response(system, sliding, target, frequency)
-                .map(|response| response.contacts)
-                .ok_or(AveragingError::Resonance { frequency })
-        };
-        let lines: Result<Vec<_>, AveragingError> = noise.lines().iter().map(line).collect();
-        return Ok(WaveResponse { input, wave, shape: WaveShape::Lines(lines?) });
-    }
-    let equations = driven(system, sliding, target)?;
-    let response =
-        ResponseToWave::new(&equations.matrix, &equations.source, &wave.waveform, wave.frequency)?;
-    let contacts = sliding.contacts().iter().enumerate();
-    let rows: Vec<(Vec<f64>, f64)> = contacts
-        .flat_map(|(index, contact)| {
-            let here =
-                |at: &InputTarget| matches!(at, InputTarget::NormalLoad { contact, .. } if *contact == index);
-            let direct = f64::from(u8::from(here(target)));
-            [(equations.slip_row(contact), 0.0), (equations.load_row(contact), direct)]
-        })
-        .collect();
-    let rows: Vec<(&[f64], f64)> =
-        rows.iter().map(|(row, direct)| (row.as_slice(), *direct)).collect();
-    let outputs = response.outputs(&rows);
-    let of = |pair: &[PeriodicPolynomial]| [pair[0].clone().into(), pair[1].clone().into()];
-    let shape = WaveShape::Polynomials(outputs.chunks_exact(2).map(of).collect());
-    Ok(WaveResponse { input, wave, shape })
 }
