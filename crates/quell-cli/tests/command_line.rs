@@ -411,7 +411,7 @@ fn changes_and_units_are_applied() {
     assert_eq!(coarse["tolerance"], 1e-6);
     assert!(coarse["steps"].as_u64() < fine["steps"].as_u64());
     let at = place.good(&["friction", "si.toml", "--at", "20mm/s,-0.03m/s"]);
-    let v = at["slip_velocity"].as_array().expect("an array");
+    let v = at["contacts"][0]["slip_velocity"].as_array().expect("an array");
     assert!((v[0].as_f64().expect("a number") - 0.02).abs() < 1e-16);
     let plain = place.good(&["friction", "si.toml", "--at", "0.02,-0.03"]);
     assert_eq!(plain, at);
@@ -422,9 +422,10 @@ fn fields_have_documented_names() {
     let place = place("names");
     let friction = place.good(&["friction", "study.toml", "--at", "0,0.1"]);
     for name in ["slip_velocity", "coefficient", "effective_coefficient", "effective_slope"] {
-        assert_eq!(friction[name].as_array().map(Vec::len), Some(2), "{name}");
+        assert_eq!(friction["contacts"][0][name].as_array().map(Vec::len), Some(2), "{name}");
     }
-    assert!(friction["coefficient"][0].is_null() && friction["why"]["coefficient[0]"].is_string());
+    assert!(friction["contacts"][0]["coefficient"][0].is_null());
+    assert!(friction["why"]["contacts[0].coefficient[0]"].is_string());
     let response = place.good(&["response", "si.toml"]);
     for name in [
         "amplitude",

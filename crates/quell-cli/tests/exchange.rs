@@ -143,12 +143,19 @@ fn friction_without_such_a_form_is_refused() {
         let errors = place.refused(&ask);
         assert_eq!(errors[0]["key"], option[0], "{errors:?}");
     }
-    let errors = place.refused(&["friction", "system.toml", "--save", "x.inp"]);
-    let said = errors[0].to_string();
-    assert!(said.contains("averaged friction of a belt"), "{said}");
+    // A file has the friction of one contact.
+    let two = format!(
+        "{system}{}",
+        &system[system.find("[[contact]]").expect("a contact")..].replace("pad", "rim")
+    );
+    fs::write(place.folder.join("two.toml"), two).expect("written");
+    let (object, status) = place.json(&["friction", "two.toml", "--save", "x.inp"]);
+    let said = object["errors"][0]["message"].as_str().expect("text");
+    assert!(status == 1 && said.contains("one contact"), "{object}");
     place.refused(&["friction", "sine.toml", "--save", "x.wav"]);
     place.refused(&["response", "sine.toml", "--save", "x.inp"]);
-    assert_eq!(place.files(), ["sine.toml", "system.toml", "uneven.toml"]);
+    assert_eq!(place.files(), ["sine.toml", "system.toml", "two.toml", "uneven.toml"]);
+    place.good(&["friction", "system.toml", "--save", "x.inp"]);
 }
 
 /// One file has every dataset, which the formats begin to say in their first bytes.

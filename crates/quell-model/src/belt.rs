@@ -10,6 +10,7 @@ use crate::profile::{Knots, Profile};
 use crate::units::Scales;
 use crate::{Invalid, InvalidValues};
 
+mod free_mass;
 mod one_mass;
 mod system;
 

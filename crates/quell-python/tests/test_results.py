@@ -319,5 +319,6 @@ def test_friction_is_measured_on_steady_responses() -> None:
     assert found[0] == pytest.approx(-found[3], abs=1e-9) and np.isnan(found[1]) and np.isnan(stuck[1])
     # Slip throughout: averaging holds to the order 1/R².
     assert stuck[3] == 0.0 and found[3] == pytest.approx(measured.effective_coefficient[3], rel=0.01)
-    assert measured.measured_verdict is not None and measured.measured_verdict[1] is None
-    assert "zero slip velocity" in measured.facts["why"]["measured_coefficient[1]"]
+    contact = measured.contacts[0]
+    assert contact["measured_verdict"][1] is None
+    assert "zero slip velocity" in measured.facts["why"]["contacts[0].measured_coefficient[1]"]

@@ -1,9 +1,9 @@
 //! Noise in the answers of a study: its band in words and in JSON, and the warning about few lines.
 
+use quell_model::System;
 use quell_model::system::{Input, InputTarget};
 use quell_model::units::Quantity;
 use quell_model::waveform::{FEWEST_GAUSSIAN_LINES, Noise};
-use quell_model::{Belt, System};
 use serde_json::{Value as Json, json};
 
 use crate::words::plural;
@@ -34,16 +34,8 @@ pub(crate) fn json(noise: &Noise, middle: f64) -> Json {
 }
 
 /// The warning about averages over noise of so few lines that their distribution is not Gaussian.
-pub(crate) fn few_lines(belt: &Belt) -> Option<String> {
-    few(belt.dithers().iter().filter_map(|dither| dither.waveform.noise()))
-}
-
-/// The same of a system.
-pub(crate) fn few_lines_of_system(system: &System) -> Option<String> {
-    few(system.waves().filter_map(|wave| wave.waveform.noise()))
-}
-
-fn few<'a>(noises: impl Iterator<Item = &'a Noise>) -> Option<String> {
+pub(crate) fn few_lines(system: &System) -> Option<String> {
+    let noises = system.waves().filter_map(|wave| wave.waveform.noise());
     let few =
         noises.filter(|noise| !noise.is_gaussian()).min_by_key(|noise| noise.lines().len())?;
     let count = few.lines().len();

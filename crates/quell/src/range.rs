@@ -172,25 +172,33 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     warnings
 }
 
-/// The warning about slip at a contact of a system beyond the range of its law; `in_words` writes a velocity with its unit.
+/// The warning about slip at a contact of a system beyond the range of its law, or about a surface slower than that range; `in_words` writes a
+/// velocity with its unit.
 pub(crate) fn at_contact(
     contact: &Contact,
     slip: f64,
     in_words: impl Fn(f64) -> String,
 ) -> Option<String> {
     let range = contact.friction.range()?;
-    (slip > range.upper).then(|| {
-        format!(
-            "the slip velocity at contact {} reaches {}, outside the range of the {} law, {} to {} ({}): numbers from there are \
+    let slow = contact.surface_velocity.mean().abs();
+    let met = if slip > range.upper {
+        ("reaches", slip)
+    } else if slow > 0.0 && slow < range.lower {
+        ("is", slow)
+    } else {
+        return None;
+    };
+    let (verb, slip) = met;
+    Some(format!(
+        "the slip velocity at contact {} {verb} {}, outside the range of the {} law, {} to {} ({}): numbers from there are \
              extrapolated",
-            contact.name,
-            in_words(slip),
-            contact.friction.kind().name(),
-            in_words(range.lower),
-            in_words(range.upper),
-            range.limit
-        )
-    })
+        contact.name,
+        in_words(slip),
+        contact.friction.kind().name(),
+        in_words(range.lower),
+        in_words(range.upper),
+        range.limit
+    ))
 }
 
 /// One sentence about slip outside a range; `what` is the part before the speed.

@@ -4,10 +4,10 @@
 
 use quell::kind::verbs;
 use quell::run::orbit::Wanted;
-use quell::run::{basins, bifurcation, friction, map, response, simulate, thresholds, varied};
+use quell::run::{basins, bifurcation, map, response, simulate, thresholds, varied};
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
-use quell_linear::averaging::{Averaging, Effective, FastMotion};
+use quell_linear::averaging::{AveragedLaw, Averaging, Effective, FastMotion};
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -37,6 +37,14 @@ fn set(study: &str, changes: &[&str]) -> BeltStudy {
     BeltStudy::parse(study, &changes).expect("a study")
 }
 
+/// The friction of a belt's contact at slip velocities.
+fn friction(study: &BeltStudy, at: Option<&[f64]>) -> Json {
+    verbs(&quell::Study::from(study))
+        .friction(at.map(<[f64]>::to_vec), false)
+        .expect("friction")
+        .json()
+}
+
 fn warnings(json: &Json) -> String {
     let list = json["warnings"].as_array().expect("a list");
     list.iter().map(|text| text.as_str().expect("text")).collect::<Vec<_>>().join("\n")
@@ -49,13 +57,16 @@ fn averages_are_those_of_the_definition() {
     assert_eq!(rows.len(), 18);
     for row in rows {
         let study = study(row["study"].as_str().expect("text"));
-        let found = friction::run(&study, &numbers(&row["slip_velocity"]));
         // The reference is of the limit R → ∞.
-        let limit = found.limit.as_ref().expect("a dither acts");
-        let of = |pick: fn(&Effective) -> f64| -> Vec<f64> {
-            limit.iter().map(|found| pick(found.as_ref().expect("an average"))).collect()
+        let at = numbers(&row["slip_velocity"]);
+        let averaged = |v: f64| {
+            let law = AveragedLaw::of_belt(study.belt(), v, Averaging::Limit).expect("a motion");
+            law.at(v).expect("an average")
         };
-        let (values, slopes) = (of(|found| found.coefficient), of(|found| found.slope));
+        let limit: Vec<Effective> = at.iter().map(|v| averaged(*v)).collect();
+        let found = &friction(&study, Some(&at))["contacts"][0];
+        let values = numbers(&found["limit_effective_coefficient"]);
+        let slopes = numbers(&found["limit_effective_slope"]);
         for (place, value) in numbers(&row["coefficient"]).into_iter().enumerate() {
             let error = (values[place] / value - 1.0).abs();
             assert!(error < 1e-10, "{row}: {} differs by {error:e}", values[place]);
@@ -64,7 +75,7 @@ fn averages_are_those_of_the_definition() {
         // reported error of the average is larger.
         for (place, slope) in numbers(&row["slope"]).into_iter().enumerate() {
             let error = (slopes[place] - slope).abs();
-            let reported = limit[place].as_ref().expect("an average").slope_error;
+            let reported = limit[place].slope_error;
             assert!(reported < 1e-4, "{row}: {reported:e}");
             assert!(error < 1e-9 + reported, "{row}: slope {} differs by {error:e}", slopes[place]);
         }
@@ -78,14 +89,13 @@ fn coulomb_under_a_sine_is_an_arcsine() {
     let study = study(reference["averages"][0]["study"].as_str().expect("text"));
     let alpha = 0.08;
     let at: Vec<f64> = (1..40).map(|k| 0.002 * f64::from(k)).collect();
-    let found = friction::run(&study, &at);
-    let limit = found.limit.as_ref().expect("a dither acts");
+    let found = &friction(&study, Some(&at))["contacts"][0];
     // At R = 10 the fast velocity is larger by 1/(1 − 1/R²).
     let finite = alpha / 0.99;
     for (place, v) in at.iter().enumerate() {
         let exact = |alpha: f64| 0.3 * (2.0 / std::f64::consts::PI) * (v / alpha).asin();
-        let own = found.points[place].effective.as_ref().expect("an average").coefficient;
-        let limit = limit[place].as_ref().expect("an average").coefficient;
+        let own = number(&found["effective_coefficient"][place]);
+        let limit = number(&found["limit_effective_coefficient"][place]);
         for (value, exact) in [(own, exact(finite)), (limit, exact(alpha))] {
             assert!((value / exact - 1.0).abs() < 1e-12, "{v}: {value}, {exact}");
         }
@@ -254,7 +264,7 @@ fn a_cubic_far_out_warns_in_the_study_s_units() {
     let far = study(si);
     for json in [
         stability(&far),
-        friction::run(&far, &[far.belt().belt_velocity()]).json(&far),
+        friction(&far, Some(&[far.belt().belt_velocity()])),
         verbs(&quell::Study::from(&far)).check().expect("valid").json(),
         simulate::run(&far, 20.0, simulate::Options::default()).expect("a run").json(&far),
         response::run(&set(si, &["solver.settle_s=0.1", "solver.record_periods=4"]))
@@ -269,7 +279,7 @@ fn a_cubic_far_out_warns_in_the_study_s_units() {
         );
     }
     let near = set(si, &["belt.belt_velocity_m_per_s=0.1"]);
-    assert_eq!(warnings(&friction::run(&near, &[near.belt().belt_velocity()]).json(&near)), "");
+    assert_eq!(warnings(&friction(&near, Some(&[near.belt().belt_velocity()]))), "");
 }
 
 /// Every verb, inside and outside the range; without --at, `friction` ends where slip including dither reaches the limit.
@@ -283,11 +293,11 @@ fn every_verb_warns_where_slip_leaves_the_range() {
         assert!(said.contains("range of the stribeck law") && said.contains("0.34641"), "{said}");
     };
     let at = [0.1];
-    quiet(&friction::run(&inside, &at).json(&inside));
-    warns(&friction::run(&outside, &at).json(&outside));
+    quiet(&friction(&inside, Some(&at)));
+    warns(&friction(&outside, Some(&at)));
     // Outside, the belt's own slip including the dither leaves the range for any grid.
     for study in [&inside, &outside] {
-        let grid = friction::grid(study.belt());
+        let grid = numbers(&friction(study, None)["contacts"][0]["slip_velocity"]);
         let end = grid.last().copied().expect("points");
         // With dither, the average at a slip velocity reaches that velocity plus the fast velocity.
         let belt = study.belt();
@@ -295,8 +305,8 @@ fn every_verb_warns_where_slip_leaves_the_range() {
         let met = end + motion.and_then(|motion| motion.largest_slip()).expect("a fast motion");
         assert!((met - 0.2 * 3f64.sqrt()).abs() < 1e-15, "{end}");
     }
-    quiet(&friction::run(&inside, &friction::grid(inside.belt())).json(&inside));
-    warns(&friction::run(&outside, &friction::grid(outside.belt())).json(&outside));
+    quiet(&friction(&inside, None));
+    warns(&friction(&outside, None));
     quiet(&stability(&inside));
     warns(&stability(&outside));
     let options = simulate::Options::default();
@@ -383,6 +393,6 @@ fn formulas_are_proven_for_every_study() {
         normal_force_n = 10.0\nbelt_velocity_m_per_s = 0.5\n[friction]\nlaw = \"expression\"\n\
         coefficient = \"0.4 - 0.1*abs(v)\"\nmaximum_velocity_m_per_s = 3.0\n";
     let si = study(si);
-    let warned = warnings(&friction::run(&si, &[0.04]).json(&si));
+    let warned = warnings(&friction(&si, Some(&[0.04])));
     assert!(warned.contains("0 m/s to 3 m/s"), "{warned}");
 }

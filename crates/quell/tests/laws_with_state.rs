@@ -10,7 +10,7 @@ use quell::run::stability::run as system_stability;
 use quell::run::system::exact::run as system_exact;
 use quell::run::system::simulate::{MotionRequest, run as run_system};
 use quell::run::thresholds::ThresholdsRequest;
-use quell::run::{friction, response, simulate};
+use quell::run::{response, simulate};
 use quell::study::{BeltStudy, Study, SystemStudy};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
@@ -45,6 +45,15 @@ fn warnings(json: &Json) -> String {
     list.iter().map(text).collect::<Vec<_>>().join("\n")
 }
 
+/// The friction of a belt's contact at a slip velocity.
+fn friction(study: &BeltStudy, at: f64) -> Json {
+    verbs(&Study::from(study)).friction(Some(vec![at]), false).expect("friction").json()
+}
+
+fn mean_of(friction: &Json) -> f64 {
+    number(&friction["contacts"][0]["effective_coefficient"][0])
+}
+
 /// The mean of T/N₀ in the periodic state, under the prescribed slip and load.
 #[test]
 fn means_are_those_of_the_periodic_state() {
@@ -55,13 +64,12 @@ fn means_are_those_of_the_periodic_state() {
         for row in rows {
             let study = belt(text(&row["study"]));
             let at = number(&row["slip_velocity"]);
-            let found = friction::run(&study, &[at]);
-            let mean = found.points[0].effective.as_ref().expect("a mean").coefficient;
+            let found = friction(&study, at);
+            let mean = mean_of(&found);
             let error = (mean - number(&row["coefficient"])).abs();
             assert!(error < 1e-7, "{key}: {mean} differs by {error:e} from {row}");
             // The mean is odd in the slip velocity.
-            let other = friction::run(&study, &[-at]);
-            let other = other.points[0].effective.as_ref().expect("a mean").coefficient;
+            let other = mean_of(&friction(&study, -at));
             assert!((mean + other).abs() < 1e-9, "{key}: {mean} and {other}");
         }
     }
@@ -74,11 +82,11 @@ fn a_load_that_oscillates_lowers_friction_by_popovs_function() {
     for row in rows(&reference, "popov") {
         let study = belt(text(&row["study"]));
         let at = number(&row["slip_velocity"]);
-        let found = friction::run(&study, &[at]);
-        let mean = found.points[0].effective.as_ref().expect("a mean").coefficient;
+        let found = friction(&study, at);
+        let mean = mean_of(&found);
         let exact = 0.4 * (1.0 + 0.5 * number(&row["Psi"]));
         assert!((mean - exact).abs() < 1e-7, "{mean} {exact}");
-        let warned = warnings(&found.json(&study)).contains("Popov");
+        let warned = warnings(&found).contains("Popov");
         assert_eq!(warned, number(&row["v_bar"]) < 1.0, "{row}");
     }
 }
@@ -95,8 +103,7 @@ fn bristles_between_their_limits() {
             "bristle_stiffness = 100.0",
             &format!("bristle_stiffness = {:?}", 100.0 * pi),
         ));
-        let found = friction::run(&study, &[0.01]);
-        found.points[0].effective.as_ref().expect("a mean").coefficient
+        mean_of(&friction(&study, 0.01))
     };
     // The errors of the limits are of the order of 1/Π² and Π²; the others are half a unit of the last digit that is known.
     for (pi, mean, error) in [

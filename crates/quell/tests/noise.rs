@@ -3,7 +3,7 @@
 use quell::Study;
 use quell::kind::verbs;
 use quell::run::noise_response::{self, NoiseResponse};
-use quell::run::{friction, simulate};
+use quell::run::simulate;
 use quell::study::{BeltStudy, SystemStudy};
 use quell_linear::averaging::{Averaging, FastMotion, critical_amplitudes};
 use quell_model::Waveform;
@@ -174,10 +174,12 @@ fn a_seed_decides_the_run() {
 #[test]
 fn averages_have_answers() {
     let noisy = study(&with_noise(3.0, BAND));
-    let curve = friction::run(&noisy, &[0.05, 0.1, 0.0]);
+    let curve = verbs(&Study::from(&noisy)).friction(Some(vec![0.05, 0.1, 0.0]), false);
+    let curve = curve.expect("friction").json();
     let motion = FastMotion::of(noisy.belt(), 0.1, Averaging::Limit).expect("a motion");
     assert!((motion.noise() / (0.3 / 2f64.sqrt()) - 1.0).abs() < 0.05);
-    assert!(curve.points.iter().all(|point| point.effective.is_ok()));
+    let means = curve["contacts"][0]["effective_coefficient"].as_array().expect("means");
+    assert!(means.len() == 3 && means.iter().all(Json::is_number), "{curve}");
     let answer = verbs(&Study::from(&noisy)).stability().expect("a verdict").json();
     assert_eq!(answer["verdict"], "stable");
     assert_eq!(answer["limit"]["verdict"], "stable");

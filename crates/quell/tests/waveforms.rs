@@ -6,7 +6,7 @@ use quell::kind::{system_of, verbs};
 use quell::run::orbit::Wanted;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::waveforms::WaveformComparison;
-use quell::run::{friction, simulate, waveforms};
+use quell::run::{simulate, waveforms};
 use quell::study::{BeltStudy, SystemStudy};
 use quell::sweep::{MapQuantity, Plan};
 use quell::{Failure, Study};
@@ -77,13 +77,13 @@ fn averages_are_those_of_the_definition() {
         for case in row["effective"].as_array().expect("cases") {
             let alpha = number(&case["amplitude_ratio"]);
             let study = study.with("dither.amplitude", alpha * ratio).expect("an amplitude");
-            let found = friction::run(&study, &numbers(&case["slip_velocity"]));
+            let at = numbers(&case["slip_velocity"]);
+            let found = verbs(&Study::from(&study)).friction(Some(at), false).expect("friction");
+            let found = &found.json()["contacts"][0];
             // The reference is of the limit R → ∞.
-            let limit = found.limit.as_ref().expect("a dither acts");
-            let values = limit.iter().map(|found| {
-                let found = found.as_ref().expect("an average");
-                (found.coefficient, found.slope)
-            });
+            let limit =
+                |name: &str| numbers(&found[&format!("limit_effective_{name}")]).into_iter();
+            let values = limit("coefficient").zip(limit("slope"));
             let expected = numbers(&case["coefficient"]).into_iter().zip(numbers(&case["slope"]));
             for ((value, slope), (exact, exact_slope)) in values.zip(expected) {
                 assert!((value - exact).abs() < 1e-10 * exact.abs(), "{row}: {value} {exact}");

@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     /// Slip velocities, separated by commas; in a study in SI in m/s, or with a unit such as 20mm/s
     #[arg(long, value_name = "V,…", value_delimiter = ',', allow_hyphen_values = true)]
     at: Vec<String>,
-    /// Belt: also measures the friction on steady responses, stick included, instead of averaging
+    /// One mass: also measures the friction on steady responses, stick included, instead of averaging
     #[arg(long)]
     measured: bool,
     /// Gives the describing function of averaged friction at the velocity of the belt, or of every surface, for slow sinusoids up to

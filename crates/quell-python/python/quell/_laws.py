@@ -488,7 +488,7 @@ class StudyFriction(Friction):
     @overload
     def __call__(
         self, at: npt.ArrayLike | str | Sequence[str] | None = None, measured: bool = False
-    ) -> results.FrictionCurve | results.ContactFriction: ...
+    ) -> results.FrictionCurve: ...
     @overload
     def __call__(self, *, describing: Number) -> results.DescribingFunction: ...
     @keywords
@@ -497,7 +497,7 @@ class StudyFriction(Friction):
         at: npt.ArrayLike | str | Sequence[str] | None = None,
         measured: bool = False,
         describing: Number | None = None,
-    ) -> results.FrictionCurve | results.ContactFriction | results.DescribingFunction:
+    ) -> results.FrictionCurve | results.DescribingFunction:
         """The friction law and the effective friction under the dither, equations (2.21), (3.19)–(3.27), (4.27).
 
         Parameters
@@ -506,7 +506,7 @@ class StudyFriction(Friction):
             Slip velocities of any shape, which is flattened; in m/s in a study in SI, of a system in its units, or texts with
             units such as ``"20mm/s"`` [default: a grid that shows the law].
         measured :
-            Belt: whether friction is also measured on steady responses, equations (4.30) and (4.31), stick included, instead of
+            One mass: whether friction is also measured on steady responses, equations (4.30) and (4.31), stick included, instead of
             averaged [default: False].
         describing :
             Largest velocity amplitude a of a slow sinusoid: the describing function of averaged friction under the slip velocity
@@ -515,14 +515,13 @@ class StudyFriction(Friction):
         Returns
         -------
         quell.results.FrictionCurve or quell.results.DescribingFunction
-            μ, μ̄ and μ̄′ over ``slip_velocity`` (n,), and the measured ⟨f/N⟩ if requested; with ``describing`` mean coefficient
-            and gain over ``velocity_amplitude`` (n,) of every contact. Of a system :class:`quell.results.ContactFriction`, which has
-            every contact.
+            μ, μ̄ and μ̄′ over ``slip_velocity`` (n,) of every contact, and the measured ⟨f/N⟩ if requested; with ``describing`` mean
+            coefficient and gain over ``velocity_amplitude`` (n,).
         """
         from . import results
 
         study, native = self._study, self._study._native
-        curve = results.ContactFriction if native.kind == "system" else results.FrictionCurve
+        curve = results.FrictionCurve
         if describing is not None:
             arguments = Arguments()
             allowed = "a velocity amplitude above 0"

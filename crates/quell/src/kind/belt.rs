@@ -12,8 +12,8 @@ use crate::run::system::response::ResponseRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
-    actuator, atlas, basins, belt_system, bifurcation, design, friction, noise_response, orbit,
-    probability, response, simulate,
+    actuator, atlas, basins, belt_system, bifurcation, design, noise_response, orbit, probability,
+    response, simulate,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -62,9 +62,10 @@ impl Verbs for BeltStudy {
     }
 
     fn friction(&self, at: Option<Vec<f64>>, measured: bool) -> Reply {
-        let at = at.unwrap_or_else(|| friction::grid(self.belt()));
-        let run = if measured { friction::run_measured } else { friction::run };
-        answer(self, Ok(run(self, &at)))
+        // The slip velocities come in the numbers of the equations.
+        let one = self.scales().map_or(1.0, |scales| scales.to_units(Quantity::Velocity, 1.0));
+        let at = at.map(|at| at.into_iter().map(|v| one * v).collect());
+        belt_system::described(self)?.friction(at, measured)
     }
 
     fn describing(&self, largest: f64) -> Reply {

@@ -1,10 +1,8 @@
 //! The verbs of a system.
 
-use serde_json::Value as Json;
-
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::basins::{self, BasinsRequest};
@@ -17,13 +15,13 @@ use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    actuator, design, exact, friction, measured, modes, reach, response, simulate, tracked,
+    actuator, design, exact, measured, modes, reach, response, simulate, tracked,
 };
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
-    bifurcation, describing, found_attractor, noise_response, orbit, probability, ramp, stability,
-    thresholds, waveforms, window,
+    bifurcation, describing, found_attractor, friction, noise_response, orbit, probability, ramp,
+    stability, thresholds, waveforms, window,
 };
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;
@@ -81,14 +79,7 @@ impl Verbs for SystemStudy {
     }
 
     fn friction(&self, at: Option<Vec<f64>>, measured: bool) -> Reply {
-        if measured {
-            let allowed = "left out: `response` of a system gives the mean friction of every contact in the steady response";
-            let origin = Origin::Argument("--measured");
-            let complaint =
-                Complaint::new(Fault::Conflict, "--measured", origin, Json::Null, allowed);
-            return Err(complaint.into());
-        }
-        answer(self, friction::run(self, at.as_deref()))
+        answer(self, friction::run(self, at.as_deref(), measured))
     }
 
     fn describing(&self, largest: f64) -> Reply {

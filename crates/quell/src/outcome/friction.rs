@@ -1,4 +1,4 @@
-//! `friction`: the law and the effective friction under the dither.
+//! `friction`: the law and the effective friction of every contact under the dither.
 
 use std::fmt::Write as _;
 
@@ -13,55 +13,52 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::quantity;
-use crate::run::friction::{FrictionCurve, FrictionPoint};
+use crate::run::friction::{ContactCurves, ContactFriction, FrictionCurve, FrictionPoint, export};
 use crate::run::law;
-use crate::study::{BeltSetup, BeltStudy};
-use crate::words::in_words;
+use crate::run::system::velocity_in_words;
+use crate::study::{SystemSetup, SystemStudy};
 
-impl Presented<BeltSetup> for FrictionCurve {
-    fn json(&self, study: &BeltStudy) -> Json {
+/// Rows of a table up to which every slip velocity is shown.
+const FEW: usize = 100;
+
+impl Presented<SystemSetup> for ContactCurves {
+    fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }
 
-    fn table(&self, study: &BeltStudy) -> String {
-        table(study, self)
+    fn table(&self, study: &SystemStudy) -> String {
+        self.contacts.iter().map(|contact| table(study, contact)).collect()
     }
 
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
         vec![("friction", self.dataset(study))]
     }
 
-    fn exported(&self, study: &BeltStudy, extension: &str) -> Option<Result<Vec<u8>, Failure>> {
+    fn exported(&self, study: &SystemStudy, extension: &str) -> Option<Result<Vec<u8>, Failure>> {
         if !friction_export::EXTENSIONS.contains(&extension) {
             return None;
         }
-        if self.measured.is_some() {
+        if self.contacts.iter().any(|contact| contact.curve.measured.is_some()) {
             let allowed = "left out: the files of other programs have the averaged friction";
             let (fault, origin) = (Fault::Conflict, Origin::Argument("measured"));
             return Some(Err(Complaint::new(fault, "measured", origin, true, allowed).into()));
         }
-        let fastest = self.points.iter().map(|point| point.slip_velocity.abs()).fold(0.0, f64::max);
-        let text = crate::run::friction_export::run(study, fastest)
-            .map(|export| friction_export::text(study, &export, extension));
+        let text =
+            export::run(study, self).map(|export| friction_export::text(study, &export, extension));
         text.map(|text| text.map(String::into_bytes)).transpose()
     }
 
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::friction::of_belt(study, self)))
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::friction::figure(study, self)))
     }
 }
 
-fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
-    // In the units of the study; in SI velocities are in m/s and slopes per m/s.
-    let (unit, per_unit) = match study.scales().and_then(|scales| scales.one(Quantity::Velocity)) {
-        Some((one, unit)) => (unit.to_owned(), one),
-        None => (quantity::unit_of(Quantity::Velocity, None), 1.0),
-    };
-    let mut text = String::new();
-    for (label, words) in
-        law::words(study.belt().friction(), &|speed| in_words(study, Quantity::Velocity, speed))
-    {
+fn table(study: &SystemStudy, contact: &ContactFriction) -> String {
+    let unit = study.units().unit(Quantity::Velocity);
+    let unit = unit.map_or(String::new(), |unit| format!(" in {unit}"));
+    let curve = &contact.curve;
+    let mut text = format!("Contact {}\n", contact.name);
+    for (label, words) in law::words(&contact.law, &|speed| velocity_in_words(study, speed)) {
         let _ = writeln!(text, "{}: {words}", label.trim());
     }
     let (words, names) = match curve.measured {
@@ -73,41 +70,38 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
     };
     let _ = write!(
         text,
-        "Friction versus slip velocity v_r in {unit}: the law μ, the effective friction μ̄ under the dither, \
-         and its slope{words}\n  {:>14}  {:>14}  {:>14}  {:>14}{names}\n",
+        "Friction versus slip velocity v_r{unit}: the law μ, the effective friction μ̄ under the dither, and its slope{words}\n  {:>14}  \
+         {:>14}  {:>14}  {:>14}{names}\n",
         "v_r", "μ", "μ̄", "μ̄′"
     );
     // The full grid goes to files and programs; the table shows every tenth point.
-    let stride = if curve.points.len() > 100 { 10 } else { 1 };
+    let stride = if curve.points.len() > FEW { 10 } else { 1 };
     for (index, point) in curve.points.iter().enumerate().step_by(stride) {
         let law =
             point.coefficient.as_ref().map_or_else(|_| "any".to_owned(), |value| figure(*value));
         let (mean, slope) = match &point.effective {
-            Ok(found) => (figure(found.coefficient), figure(found.slope / per_unit)),
+            Ok(found) => (figure(found.coefficient), figure(found.slope)),
             // Without slip any friction may hold; elsewhere a reason follows.
             Err(_) if point.slip_velocity == 0.0 => ("any".to_owned(), "none".to_owned()),
             Err(_) => ("unknown".to_owned(), "unknown".to_owned()),
         };
-        let v = figure(point.slip_velocity * per_unit);
+        let v = figure(point.slip_velocity);
         let _ = write!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
         if let Some(found) = curve.measured.as_ref().and_then(|measured| measured.get(index)) {
             let _ = write!(text, "  {}", measured_words(found));
         }
         text.push('\n');
     }
-    text.push_str(&one_sided(curve.points.iter().step_by(stride), |v| figure(v * per_unit)));
-    text.push_str(&reasons(curve, |v| figure(v * per_unit)));
+    text.push_str(&one_sided(curve.points.iter().step_by(stride)));
+    text.push_str(&reasons(curve));
     text
 }
 
 /// At which of the slip velocities the slope has two values, and which of them is given.
-pub(super) fn one_sided<'a>(
-    points: impl Iterator<Item = &'a FrictionPoint>,
-    shown: impl Fn(f64) -> String,
-) -> String {
+fn one_sided<'a>(points: impl Iterator<Item = &'a FrictionPoint>) -> String {
     let outer = points
         .filter(|point| point.effective.as_ref().is_ok_and(|found| found.side == SlopeSide::Outer));
-    let places: Vec<String> = outer.map(|point| shown(point.slip_velocity)).collect();
+    let places: Vec<String> = outer.map(|point| figure(point.slip_velocity)).collect();
     if places.is_empty() {
         return String::new();
     }
@@ -130,7 +124,7 @@ fn measured_words(found: &Result<SteadyFriction, String>) -> String {
 }
 
 /// Why friction is unknown or could not be measured, each reason once, with the slip velocities.
-fn reasons(curve: &FrictionCurve, shown: impl Fn(f64) -> String) -> String {
+fn reasons(curve: &FrictionCurve) -> String {
     const MOST: usize = 4;
     let unknown = curve.points.iter().filter(|point| point.slip_velocity != 0.0);
     let unknown = unknown.filter_map(|point| {
@@ -142,7 +136,7 @@ fn reasons(curve: &FrictionCurve, shown: impl Fn(f64) -> String) -> String {
     });
     let mut reasons: Vec<((&str, &str), Vec<String>)> = Vec::new();
     for (what, slip, why) in unknown.chain(unmeasured) {
-        let at = shown(slip);
+        let at = figure(slip);
         match reasons.iter_mut().find(|(known, _)| *known == (what, why)) {
             Some((_, places)) => places.push(at),
             None => reasons.push(((what, why), vec![at])),

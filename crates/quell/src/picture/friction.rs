@@ -3,38 +3,26 @@
 use quell_model::units::Quantity;
 use quell_numerics::order::ascending_by;
 
-use super::caption::{caption, caption_of_system};
-use super::ruler::{Ruler, words};
+use super::caption::caption_of_system;
+use super::ruler::Ruler;
 use crate::plot::{
     Figure, Layer, LineStyle, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
 };
-use crate::run::friction::FrictionCurve;
-use crate::run::system::friction::SystemFriction;
-use crate::study::{BeltStudy, SystemStudy};
+use crate::run::friction::{ContactCurves, FrictionCurve};
+use crate::study::SystemStudy;
 
 /// Number of slip velocities up to which every value has a mark.
 const FEW: usize = 40;
 
-/// Of a belt.
-pub(crate) fn of_belt(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
-    let ruler = Ruler::of(study, Quantity::Velocity, curve.slip_velocities());
-    let symbol = if study.scales().is_some() { "V_0" } else { "v_0" };
-    let belt_velocity = study.belt().belt_velocity();
-    let label = format!("${symbol}$ = {}", words(study, Quantity::Velocity, belt_velocity));
-    let dithered = !study.belt().dithers().is_empty();
-    Figure::single(panel(curve, &ruler, (belt_velocity, label), dithered))
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{}.", caption(study)))
-}
-
-/// Of a system, one panel for each contact.
-pub(crate) fn of_system(study: &SystemStudy, done: &SystemFriction) -> Figure {
+/// One panel for each contact.
+pub(crate) fn figure(study: &SystemStudy, done: &ContactCurves) -> Figure {
     let dithered = study.system().is_dithered();
+    let several = done.contacts.len() > 1;
     let panels = done.contacts.iter().map(|contact| {
         let ruler = Ruler::of_system(study, Quantity::Velocity, contact.curve.slip_velocities());
         let label = format!("surface: {}", ruler.words(contact.velocity));
-        panel(&contact.curve, &ruler, (contact.velocity, label), dithered)
-            .title(format!("contact {}", contact.name))
+        let panel = panel(&contact.curve, &ruler, (contact.velocity, label), dithered);
+        if several { panel.title(format!("contact {}", contact.name)) } else { panel }
     });
     Figure::grid(1, panels.collect::<Vec<_>>())
         .title(study.title().unwrap_or_default())

@@ -164,7 +164,7 @@ fn warnings(study: &SystemStudy) -> Vec<String> {
         warnings.extend(outside_of_laws(system, in_words, contacts));
     }
     warnings.extend(beyond_actuator(system, study.actuator(), designed(study)));
-    warnings.extend(noise::few_lines_of_system(system));
+    warnings.extend(noise::few_lines(system));
     warnings.extend(removed_mean::warnings(system.waves().map(|wave| &wave.waveform)));
     warnings
 }

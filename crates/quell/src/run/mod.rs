@@ -21,7 +21,6 @@ pub mod exponents;
 pub mod fit;
 pub mod found_attractor;
 pub mod friction;
-pub mod friction_export;
 pub mod law;
 pub mod manoeuvre;
 pub mod map;

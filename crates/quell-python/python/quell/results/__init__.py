@@ -16,7 +16,7 @@ from .._dataset import Arrays, Variable
 from .._result import Result
 from ._measured import Comparison, Decay, LawFit, RecordFit
 from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
-from ._steady import Actuator, Atlas, AtlasTables, Check, Citations, ContactFriction, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
+from ._steady import Actuator, Atlas, AtlasTables, Check, Citations, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
 
 __all__ = [
@@ -29,7 +29,6 @@ __all__ = [
     "Bifurcation",
     "Check",
     "Citations",
-    "ContactFriction",
     "Comparison",
     "Decay",
     "DescribingFunction",

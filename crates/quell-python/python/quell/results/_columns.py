@@ -304,20 +304,6 @@ class CitationsColumns(Frozen):
     source_reference: npt.NDArray[np.str_]
 
 
-class ContactFrictionColumns(Frozen):
-    """Of :class:`quell.results.ContactFriction`."""
-
-    coefficient: npt.NDArray[np.float64]
-    contact_fast_velocity: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
-    contact_number: npt.NDArray[np.float64]
-    contact_surface_velocity: npt.NDArray[np.float64]
-    effective_coefficient: npt.NDArray[np.float64]
-    effective_slope: npt.NDArray[np.float64]
-    row: npt.NDArray[np.float64]
-    slip_velocity: npt.NDArray[np.float64]
-
-
 class ComparisonColumns(Frozen):
     """Of :class:`quell.results.Comparison`."""
 
@@ -523,16 +509,11 @@ class ExactStabilityColumns(Frozen):
 class FrictionCurveColumns(Frozen):
     """Of :class:`quell.results.FrictionCurve`."""
 
-    effective_coefficient_error_value: npt.NDArray[np.float64]
-    effective_slope_error_value: npt.NDArray[np.float64]
-    effective_slope_one_sided_value: npt.NDArray[Any]
-    law_minimum_coefficient: float
-    law_range_from: float
-    law_range_to: float
-    law_reference_velocity: float
-    law_static_coefficient: float
-    measured_base_value: npt.NDArray[Any]
-    measured_verdict_value: npt.NDArray[np.str_]
+    contact_fast_velocity: npt.NDArray[np.float64]
+    contact_name: npt.NDArray[np.str_]
+    contact_number: npt.NDArray[np.float64]
+    contact_surface_velocity: npt.NDArray[np.float64]
+    row: npt.NDArray[np.float64]
 
 
 class LawFitColumns(Frozen):

@@ -65,25 +65,18 @@ class Citations(_columns.CitationsColumns, Result):
 
 
 class FrictionCurve(_columns.FrictionCurveColumns, Result):
-    """The friction law and its average under the dither, over slip velocities (n,)."""
+    """The friction law of every contact and its average under the dither: arrays have one row for each contact and slip velocity (n,),
+    those of a belt one row for each slip velocity."""
 
     verb = "friction"
-    law: dict[str, Any]
-    """``law``, its parameters, and the range of slip in which it holds."""
-    effective_coefficient_error: list[float | None]
-    """Bound on the error of μ̄ (n,)."""
-    effective_slope_error: list[float | None]
-    """Bound on the error of μ̄′ (n,)."""
-    effective_slope_one_sided: list[bool]
-    """Whether μ̄′ is the slope on one side of a kink (n,)."""
-    measured_verdict: list[Verdict | None] | None
-    """Measured: stability of the steady response on which friction is measured (n,)."""
-    measured_base: list[bool | None] | None
-    """Measured: whether that response continues steady sliding (n,); otherwise a run from steady sliding ends on it."""
+    contacts: list[dict[str, Any]]
+    """``name``, ``surface_velocity``, the largest ``fast_velocity``, the ``law`` with its parameters and the range of slip in which it holds,
+    and over ``slip_velocity``: ``coefficient``, ``effective_coefficient`` and ``effective_slope`` with their errors and whether the slope is
+    ``effective_slope_one_sided``; measured also ``measured_verdict`` and ``measured_base``."""
 
     @property
     def slip_velocity(self) -> npt.NDArray[np.float64]:
-        """v_r (n,), in the unit of the study: lengths per τ, in SI m/s."""
+        """v_r (n,), in the unit of the study."""
         return self.arrays["slip_velocity"].values
 
     @property
@@ -103,13 +96,13 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
 
     @property
     def limit_effective_coefficient(self) -> npt.NDArray[np.float64] | None:
-        """μ̄ (n,) in the limit of high dither frequency, R → ∞; ``None`` without dither."""
+        """μ̄ (n,) in the limit of high dither frequency, R → ∞; ``None`` where no contact has it, as without dither."""
         found = self.arrays.get("limit_effective_coefficient")
         return None if found is None else found.values
 
     @property
     def limit_effective_slope(self) -> npt.NDArray[np.float64] | None:
-        """Its slope (n,); ``None`` without dither."""
+        """Its slope (n,), in the same way."""
         found = self.arrays.get("limit_effective_slope")
         return None if found is None else found.values
 
@@ -131,16 +124,6 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
         ``measured=True``."""
         found = self.arrays.get("measured_stable")
         return None if found is None else found.values
-
-
-class ContactFriction(_columns.ContactFrictionColumns, Result):
-    """The friction law of every contact of a system and its average under the dither; arrays have one row for each contact and slip
-    velocity."""
-
-    verb = "friction"
-    contacts: list[dict[str, Any]]
-    """``name``, ``surface_velocity``, the largest ``fast_velocity``, and over ``slip_velocity``: ``coefficient``,
-    ``effective_coefficient`` and ``effective_slope`` with their errors."""
 
 
 class DescribingFunction(_columns.DescribingFunctionColumns, Result):

@@ -7,8 +7,8 @@
 use std::fmt::Write as _;
 
 use super::comments::{ExportUnits, comment, provenance};
-use crate::run::friction_export::FrictionExport;
-use crate::study::BeltStudy;
+use crate::run::friction::export::FrictionExport;
+use crate::study::SystemStudy;
 use crate::words::digits;
 
 /// Marks a comment.
@@ -17,29 +17,25 @@ const MARK: &str = "**";
 /// The name of the interaction.
 const NAME: &str = "QUELL_AVERAGED";
 
-/// Millimetres per second in metres per second.
-const MILLIMETRES: f64 = 1000.0;
-
 /// The file.
-pub(super) fn text(study: &BeltStudy, export: &FrictionExport, units: &ExportUnits) -> String {
+pub(super) fn text(study: &SystemStudy, export: &FrictionExport, units: &ExportUnits) -> String {
     let mut text = String::new();
     comment(&mut text, MARK, &provenance(study, export, units));
-    let unit = units.named(&units.speed);
+    let unit = units.speed;
     let columns = format!("columns: friction coefficient, slip rate in {unit}");
     comment(&mut text, MARK, &[columns]);
     let _ = writeln!(text, "*SURFACE INTERACTION, NAME={NAME}\n1.,");
-    let factor = units.speed.1;
-    table(&mut text, "", export, factor);
-    decay(&mut text, export, factor, &unit);
-    if units.is_si {
+    table(&mut text, "", export, 1.0);
+    decay(&mut text, export, unit);
+    if let Some(millimetres) = units.millimetres {
         let about = "the same table for a model in mm, t, s: slip rate in mm/s".to_owned();
         comment(&mut text, MARK, &[about]);
-        table(&mut text, "** ", export, MILLIMETRES * factor);
+        table(&mut text, "** ", export, millimetres);
     }
     text
 }
 
-/// The table, with the slip rate in a unit of which the number of the equations is a multiple.
+/// The table, with the slip rate times a factor.
 fn table(text: &mut String, mark: &str, export: &FrictionExport, factor: f64) {
     let _ = writeln!(text, "{mark}*FRICTION");
     for (speed, coefficient) in &export.table.points {
@@ -49,7 +45,7 @@ fn table(text: &mut String, mark: &str, export: &FrictionExport, factor: f64) {
 }
 
 /// The model with a decay, as a comment with its error.
-fn decay(text: &mut String, export: &FrictionExport, factor: f64, unit: &str) {
+fn decay(text: &mut String, export: &FrictionExport, unit: &str) {
     let fit = &export.decay;
     let (least, table) = (digits(fit.largest_error), digits(export.table.largest_error));
     let lines = [
@@ -60,9 +56,7 @@ fn decay(text: &mut String, export: &FrictionExport, factor: f64, unit: &str) {
         "*FRICTION, EXPONENTIAL DECAY".to_owned(),
         format!(
             "{:.9E}, {:.9E}, {:.9E}",
-            fit.static_coefficient,
-            fit.kinetic_coefficient,
-            fit.decay / factor
+            fit.static_coefficient, fit.kinetic_coefficient, fit.decay
         ),
     ];
     comment(text, MARK, &lines);

@@ -5,14 +5,18 @@ mod comments;
 mod simscape;
 
 use self::comments::ExportUnits;
-use crate::run::friction_export::FrictionExport;
-use crate::study::BeltStudy;
+use crate::run::friction::export::FrictionExport;
+use crate::study::SystemStudy;
 
 /// Extensions of these files.
 pub const EXTENSIONS: &[&str] = &["inp", "m"];
 
 /// The text of a file with this extension, one of [`EXTENSIONS`].
-pub(super) fn text(study: &BeltStudy, export: &FrictionExport, extension: &str) -> Option<String> {
+pub(super) fn text(
+    study: &SystemStudy,
+    export: &FrictionExport,
+    extension: &str,
+) -> Option<String> {
     let units = ExportUnits::of(study);
     match extension {
         "inp" => Some(abaqus::text(study, export, &units)),

@@ -6,36 +6,35 @@
 use std::fmt::Write as _;
 
 use super::comments::{ExportUnits, comment, provenance};
-use crate::run::friction_export::FrictionExport;
-use crate::study::BeltStudy;
+use crate::run::friction::export::FrictionExport;
+use crate::study::SystemStudy;
 use crate::words::digits;
 
 /// Marks a comment.
 const MARK: &str = "%";
 
 /// The file.
-pub(super) fn text(study: &BeltStudy, export: &FrictionExport, units: &ExportUnits) -> String {
+pub(super) fn text(study: &SystemStudy, export: &FrictionExport, units: &ExportUnits) -> String {
     let mut text = String::new();
     comment(&mut text, MARK, &provenance(study, export, units));
-    let (speed, force) = (units.named(&units.speed), units.named(&units.force));
-    let load = export.normal_load * units.force.1;
+    let &ExportUnits { speed, force, .. } = units;
+    let load = export.normal_load;
     let fit = &export.translational;
-    let least = digits(fit.slowest * units.speed.1);
+    let least = digits(fit.slowest);
     let about = format!(
         "Translational Friction, fitted: largest error {} of the force in {force}, at slip speeds from {least} up",
         digits(fit.largest_error * load)
     );
-    let viscous =
-        if units.has_units { format!("{force}/({speed})") } else { format!("({force})/({speed})") };
+    let viscous = format!("{force}/({speed})");
     text.push('\n');
     comment(&mut text, MARK, &[about]);
     for (name, value, unit) in [
-        ("normal_force", load, force.as_str()),
-        ("breakaway_friction_force", fit.breakaway * load, &force),
-        ("breakaway_friction_velocity", fit.breakaway_velocity * units.speed.1, &speed),
-        ("coulomb_friction_force", fit.coulomb * load, &force),
-        ("viscous_friction_coefficient", fit.viscous * load / units.speed.1, &viscous),
-        ("largest_error", fit.largest_error * load, &force),
+        ("normal_force", load, force),
+        ("breakaway_friction_force", fit.breakaway * load, force),
+        ("breakaway_friction_velocity", fit.breakaway_velocity, speed),
+        ("coulomb_friction_force", fit.coulomb * load, force),
+        ("viscous_friction_coefficient", fit.viscous * load, &viscous),
+        ("largest_error", fit.largest_error * load, force),
     ] {
         let _ = writeln!(text, "friction.{name} = {value:?}; % {unit}");
     }
@@ -45,9 +44,9 @@ pub(super) fn text(study: &BeltStudy, export: &FrictionExport, units: &ExportUni
             .to_owned();
     comment(&mut text, MARK, &[about]);
     let points = &export.table.points;
-    vector(&mut text, "slip_velocity", points.iter().map(|point| point.0 * units.speed.1), &speed);
+    vector(&mut text, "slip_velocity", points.iter().map(|point| point.0), speed);
     vector(&mut text, "kinetic_coefficient", points.iter().map(|point| point.1), "1");
-    vector(&mut text, "force", points.iter().map(|point| point.1 * load), &force);
+    vector(&mut text, "force", points.iter().map(|point| point.1 * load), force);
     let error = export.table.largest_error;
     let _ = writeln!(text, "friction.largest_table_error = {error:?}; % of the coefficient");
     text

@@ -1,7 +1,6 @@
 //! Answers of a study of a system, one file per verb.
 
 mod exact;
-mod friction;
 mod measured;
 mod modes;
 mod reach;

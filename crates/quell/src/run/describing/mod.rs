@@ -23,7 +23,7 @@ use crate::complaint::{Complaint, Failure};
 use crate::contact_state;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::noise::few_lines_of_system;
+use crate::noise::few_lines;
 use crate::range;
 use crate::run::system::{has_equations, in_units, oscillating, velocity_in_words};
 use crate::study::{SystemStudy, UnitSystem};
@@ -144,7 +144,7 @@ fn warnings(study: &SystemStudy, average: &AveragedSliding, largest: f64) -> Vec
         })
     }));
     warnings.extend(contact_state::averaged_without_states(system, &average.contacts));
-    warnings.extend(few_lines_of_system(system));
+    warnings.extend(few_lines(system));
     let of_load = |input: &Input| matches!(input.target, InputTarget::NormalLoad { .. });
     if system.inputs.iter().any(of_load) {
         warnings.push(

@@ -22,7 +22,7 @@ use quell_model::units::Quantity;
 
 use crate::complaint::Failure;
 use crate::contact_state;
-use crate::noise::{few_lines_of_system, normal_noise};
+use crate::noise::{few_lines, normal_noise};
 use crate::range::outside_of_laws;
 use crate::run::system::modes::natural;
 use crate::run::system::validity::{condition, opened, opening};
@@ -206,7 +206,7 @@ impl SlidingStability {
         warnings.extend(self.critical_beyond(study));
         warnings.extend(self.one_mass.iter().flat_map(|one| one.warnings(study)));
         warnings.extend(self.limit_apart());
-        warnings.extend(few_lines_of_system(system));
+        warnings.extend(few_lines(system));
         warnings.extend(normal_noise(system));
         warnings.extend(contact_state::averaged_without_states(system, average));
         warnings

@@ -5,7 +5,6 @@ pub mod attractor;
 pub mod cycle_samples;
 pub mod design;
 pub mod exact;
-pub mod friction;
 pub mod history;
 pub mod measured;
 pub mod modes;
