@@ -5,6 +5,7 @@ use quell_model::units::Quantity;
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
 use crate::complaint::Failure;
+use crate::contact_state::refused_of_belt;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::recorded_motion::ObservedMotion;
@@ -12,8 +13,8 @@ use crate::run::system::response::ResponseRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
-    actuator, atlas, basins, belt_system, bifurcation, design, noise_response, orbit, probability,
-    response, simulate,
+    atlas, basins, belt_system, bifurcation, design, noise_response, orbit, probability, response,
+    simulate,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -124,7 +125,11 @@ impl Verbs for BeltStudy {
     }
 
     fn actuator(&self, frequencies: Option<(f64, f64)>) -> Reply {
-        answer(self, actuator::run(self, frequencies))
+        refused_of_belt(self, "actuator")?;
+        // The frequencies come as ratios.
+        let time = self.scales().map_or(1.0, |scales| scales.to_units(Quantity::Time, 1.0));
+        let frequencies = frequencies.map(|(from, to)| (from / time, to / time));
+        Verbs::actuator(&belt_system::described(self)?, frequencies)
     }
 
     fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {

@@ -14,14 +14,12 @@ use crate::run::simulate::Options;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{
-    actuator, design, exact, measured, modes, reach, response, simulate, tracked,
-};
+use crate::run::system::{design, exact, measured, modes, reach, response, simulate, tracked};
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
-    bifurcation, describing, found_attractor, friction, noise_response, orbit, probability, ramp,
-    stability, thresholds, waveforms, window,
+    actuator, bifurcation, describing, found_attractor, friction, noise_response, orbit,
+    probability, ramp, stability, thresholds, waveforms, window,
 };
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;

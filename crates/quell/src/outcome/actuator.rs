@@ -14,43 +14,13 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::actuator::ActuatorFound;
 use crate::run::design::StudyWithDesign;
-use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
-
-impl Presented<BeltSetup> for ActuatorFound {
-    fn json(&self, study: &BeltStudy) -> Json {
-        self.json(study, &[])
-    }
-
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(self.sentence(study))
-    }
-
-    fn table(&self, study: &BeltStudy) -> String {
-        let newtons = study.scales().map(|scales| (scales.per_unit(Quantity::Force), "/N"));
-        table(self, study, newtons.unwrap_or((1.0, "")))
-    }
-
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        let frequencies = self.coverage.points.iter().map(|point| point.frequency).collect();
-        let dataset = Dataset::new(study, "actuator").fact(self.sentence(study));
-        let dataset = dataset.axis("frequency", Quantity::FrequencyRatio, frequencies);
-        let columns = columns(self, |_| "slip_velocity".to_owned()).into_iter();
-        let dataset = columns.fold(dataset, |dataset, (name, quantity, values)| {
-            dataset.array(&name, quantity, values)
-        });
-        vec![("actuator", with_limits(dataset, self))]
-    }
-
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::actuator(study, self)))
-    }
-}
+use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for ActuatorFound {
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
-        self.json(study, study.warnings())
+        self.json(study)
     }
 
     fn sentence(&self, study: &SystemStudy) -> Option<String> {
@@ -58,8 +28,7 @@ impl Presented<SystemSetup> for ActuatorFound {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        let unit = study.units().unit(Quantity::Force);
-        table(self, study, (1.0, if unit.is_some() { "/N" } else { "" }))
+        table(self, study)
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
@@ -67,10 +36,7 @@ impl Presented<SystemSetup> for ActuatorFound {
         let unit = |quantity| study.units().unit(quantity).unwrap_or("1");
         let axis = Array::new("frequency", unit(Quantity::FrequencyRatio), frequencies);
         let dataset = Dataset::of(&study.into(), "actuator").fact(self.sentence(study));
-        let slip_of = |contact: &str| {
-            format!("slip_of_{}", contact.replace(|letter: char| !letter.is_alphanumeric(), "_"))
-        };
-        let columns = columns(self, slip_of).into_iter();
+        let columns = columns(self).into_iter();
         let dataset = columns.fold(dataset.with_axis(axis), |dataset, (name, quantity, values)| {
             dataset.with(Array::new(name, unit(quantity), values))
         });
@@ -78,16 +44,13 @@ impl Presented<SystemSetup> for ActuatorFound {
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::actuator_of_system(study, self)))
+        Some(Ok(picture::actuator(study, self)))
     }
 }
 
 /// Ends, changes, resonances and the largest margin.
-fn table(
-    found: &ActuatorFound,
-    study: &dyn StudyWithDesign,
-    (newtons, unit): (f64, &str),
-) -> String {
+fn table(found: &ActuatorFound, study: &SystemStudy) -> String {
+    let unit = if study.units().unit(Quantity::Force).is_some() { "/N" } else { "" };
     let scale = study.frequency_scale();
     let mut text = String::new();
     let frequency =
@@ -111,8 +74,8 @@ fn table(
             text,
             "  {:>17}  {:>14}  {:>14}  {margin:>10}  {:<15}  {what}",
             figure(scale.of(at.frequency)),
-            number(reach.clone().map(|reach| newtons * reach.amplitude)),
-            number(at.needed.clone().map(|needed| newtons * needed)),
+            number(reach.clone().map(|reach| reach.amplitude)),
+            number(at.needed.clone()),
             reach.map_or("unknown", |reach| reach.limit.name())
         );
     }
@@ -120,10 +83,10 @@ fn table(
 }
 
 /// The arrays over frequency: amplitudes, margin, slip velocities, and what the largest amplitude takes.
-fn columns(
-    found: &ActuatorFound,
-    slip_of: impl Fn(&str) -> String,
-) -> Vec<(String, Quantity, Vec<f64>)> {
+fn columns(found: &ActuatorFound) -> Vec<(String, Quantity, Vec<f64>)> {
+    let slip_of = |contact: &str| {
+        format!("slip_of_{}", contact.replace(|letter: char| !letter.is_alphanumeric(), "_"))
+    };
     let column = |value: &dyn Fn(&ActuatorAtFrequency) -> Result<f64, String>| -> Vec<f64> {
         let points = found.coverage.points.iter();
         points

@@ -3,7 +3,7 @@
 use quell_design::actuator::ActuatorAtFrequency;
 use quell_model::units::Quantity;
 
-use super::caption::{caption, caption_of_system};
+use super::caption::caption_of_system;
 use super::ruler::Ruler;
 use crate::plot::{
     Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
@@ -11,7 +11,7 @@ use crate::plot::{
 };
 use crate::run::actuator::ActuatorFound;
 use crate::run::design::{FrequencyScale, StudyWithDesign};
-use crate::study::{BeltStudy, SystemStudy};
+use crate::study::SystemStudy;
 
 /// The axes of one study.
 struct ActuatorRulers {
@@ -20,22 +20,8 @@ struct ActuatorRulers {
     velocity: Ruler,
 }
 
-/// The picture of a belt.
-pub fn actuator(study: &BeltStudy, done: &ActuatorFound) -> Figure {
-    let rulers = ActuatorRulers {
-        frequency: frequency(study, if study.scales().is_some() { "f" } else { "R" }),
-        force: Ruler::of(study, Quantity::Force, forces(done)),
-        velocity: Ruler::of(study, Quantity::Velocity, velocities(done)),
-    };
-    figure(done, &rulers).title(study.title().unwrap_or_default()).caption(format!(
-        "{}. {}",
-        caption(study),
-        done.sentence(study)
-    ))
-}
-
-/// The picture of a system.
-pub fn actuator_of_system(study: &SystemStudy, done: &ActuatorFound) -> Figure {
+/// The picture of a study.
+pub fn actuator(study: &SystemStudy, done: &ActuatorFound) -> Figure {
     let rulers = ActuatorRulers {
         frequency: frequency(study, "ω"),
         force: Ruler::of_system(study, Quantity::Force, forces(done)),
@@ -49,7 +35,7 @@ pub fn actuator_of_system(study: &SystemStudy, done: &ActuatorFound) -> Figure {
 }
 
 /// The axis of the frequency, in hertz where the study has seconds.
-fn frequency(study: &dyn StudyWithDesign, symbol: &str) -> (PlotAxis, FrequencyScale) {
+fn frequency(study: &SystemStudy, symbol: &str) -> (PlotAxis, FrequencyScale) {
     let scale = study.frequency_scale();
     let axis = PlotAxis::new(scale.noun).symbol(if scale.unit.is_empty() { symbol } else { "" });
     let axis = if scale.unit.is_empty() { axis } else { axis.unit(scale.unit.trim()) };

@@ -37,7 +37,7 @@ mod thresholds;
 mod waveforms;
 mod window;
 
-pub use actuator::{actuator, actuator_of_system};
+pub use actuator::actuator;
 pub use atlas::{atlas, atlas_tables};
 pub use basins::basins;
 pub use compare::compare;

@@ -4,7 +4,6 @@ use quell_dynamics::start::InitialState;
 use quell_model::units::Quantity;
 
 use crate::complaint::Failure;
-use crate::run::actuator::beyond_actuator;
 use crate::study::{
     BeltStudy, DescribedSystem, GivenSize, Study, SystemStart, SystemStudy, not_periodic, plausible,
 };
@@ -45,6 +44,7 @@ fn warned(study: &BeltStudy, warnings: Vec<String>) -> Result<SystemStudy, Failu
         initial,
         warnings,
         sizes: sizes(study),
+        actuator: study.actuator_in_units(),
         time: None,
     }))
 }
@@ -69,6 +69,5 @@ pub(crate) fn checked(study: &BeltStudy) -> Result<SystemStudy, Failure> {
     let belt = study.belt();
     let in_units = belt.system_in_units().and_then(Result::ok);
     let magnitudes = in_units.map(|system| plausible::warnings(&system, study.units(), false));
-    let demanded = beyond_actuator(&belt.system(), study.actuator(), 0);
-    warned(study, magnitudes.into_iter().flatten().chain(demanded).collect())
+    warned(study, magnitudes.into_iter().flatten().collect())
 }

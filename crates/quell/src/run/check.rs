@@ -7,8 +7,8 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::actuator::beyond_actuator;
+use super::actuator::designed;
 use super::law;
-use super::system::actuator::designed;
 use super::system::velocity_in_words;
 use crate::fields::Fields;
 use crate::noise;

@@ -50,7 +50,6 @@ use quell_dynamics::simulation::{Start, within};
 use quell_dynamics::start::NoSquealingStart;
 
 use quell_model::InvalidValues;
-use quell_model::parameter::BELT_VELOCITY;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
@@ -96,17 +95,6 @@ fn of_beginning(name: &str, invalid: &InvalidValues) -> Complaint {
         "rest or given numbers: the belt at the start of the run has no steady sliding, because {invalid}"
     );
     Complaint::new(Fault::Value, "belt.initial.state", Origin::Whole, name, allowed)
-}
-
-/// Rejects a belt at rest, where any position in the stick band is an equilibrium; `why` gives the reason.
-fn moves(study: &BeltStudy, why: &str) -> Result<(), Failure> {
-    let velocity = study.belt().belt_velocity();
-    if velocity > 0.0 {
-        return Ok(());
-    }
-    let key = BELT_VELOCITY.path;
-    let allowed = format!("above 0: {why}");
-    Err(Complaint::new(Fault::Value, key, Origin::Whole, velocity, allowed).into())
 }
 
 /// The failure of an interrupted verb.

@@ -244,7 +244,8 @@ class Design(_columns.DesignColumns, Result):
 
 
 class Actuator(_columns.ActuatorColumns, Result):
-    """What the actuator can give over the frequency of the dither, and what quenching needs; arrays over the frequency (n,)."""
+    """What the actuator can give over the frequency of the dither, and what quenching needs; arrays over the frequency (n,), with the largest
+    slip velocity of the dither at each contact, at the largest amplitude, in ``slip_of_`` and its name."""
 
     verb = "actuator"
     kind: str
@@ -278,7 +279,7 @@ class Actuator(_columns.ActuatorColumns, Result):
 
     @property
     def frequency(self) -> npt.NDArray[np.float64]:
-        """Frequency of the dither (n,), in the unit of the study: R, in SI Hz; of a system the angular frequency."""
+        """Angular frequency of the dither (n,), in the unit of the study; without units over ω₀ of a belt, which is R."""
         return self.arrays["frequency"].values
 
     @property
@@ -310,12 +311,6 @@ class Actuator(_columns.ActuatorColumns, Result):
     def stroke(self) -> npt.NDArray[np.float64]:
         """Peak-to-peak displacement of the driven point at the largest amplitude (n,)."""
         return self.arrays["stroke"].values
-
-    @property
-    def slip_velocity(self) -> npt.NDArray[np.float64] | None:
-        """Belt: largest slip velocity of the dither at the contact, at the largest amplitude (n,); of a system in ``arrays``."""
-        found = self.arrays.get("slip_velocity")
-        return None if found is None else found.values
 
     @property
     def limit(self) -> npt.NDArray[np.str_]:

@@ -26,7 +26,7 @@ use super::disc::DiscSetup;
 use super::dither_size::GivenSize;
 use super::friction;
 use super::path::key_at;
-use super::reader::Reader;
+use super::reader::{EquationScale, Reader};
 use super::study_kind::{StudyKind, wrong_kind};
 use super::vocabulary::DocumentKind;
 
@@ -180,6 +180,14 @@ impl BeltStudy {
     /// The actuator that gives the dither.
     pub fn actuator(&self) -> Option<&Actuator> {
         self.kind().actuator.as_ref()
+    }
+
+    /// The same in the units of [`BeltStudy::system`].
+    pub fn actuator_in_units(&self) -> Option<Actuator> {
+        let source = &self.source;
+        let mut reader = Reader::in_units(self.units(), EquationScale::OfTheFile)
+            .with(source.files.to_read_again(), source.computed.clone());
+        actuator::read(&mut reader, &source.document).flatten()
     }
 
     /// The amplitudes that the study gives by another size than a peak force.

@@ -62,14 +62,24 @@ pub struct DescribedSystem {
     pub warnings: Vec<String>,
     /// Amplitudes that are given by another size than a peak force.
     pub sizes: Vec<GivenSize>,
+    /// The actuator that gives the first dither, in these units.
+    pub actuator: Option<Actuator>,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
 }
 
 impl From<DescribedSystem> for SystemSetup {
     fn from(described: DescribedSystem) -> Self {
-        let DescribedSystem { system, units, observe, initial, mut warnings, sizes, time } =
-            described;
+        let DescribedSystem {
+            system,
+            units,
+            observe,
+            initial,
+            mut warnings,
+            sizes,
+            actuator,
+            time,
+        } = described;
         warnings.extend(passivity::warnings(&system.contacts, units));
         Self {
             system: Arc::new(system),
@@ -80,7 +90,7 @@ impl From<DescribedSystem> for SystemSetup {
             warnings,
             response: None,
             design: None,
-            actuator: None,
+            actuator,
             sizes: sizes.into(),
             time,
         }

@@ -13,6 +13,7 @@ use crate::fields::Fields;
 use crate::run::design::StudyWithDesign;
 use crate::run::stability::FAR;
 use crate::run::waveforms::label;
+use crate::study::SystemStudy;
 use crate::words::{digits, listed};
 
 /// Why a margin has no value where nothing needs to be quenched.
@@ -31,13 +32,13 @@ fn path_of(limit: Option<ActuatorLimit>) -> &'static str {
 }
 
 /// A range of frequencies with its unit.
-fn range_in_words(study: &dyn StudyWithDesign, (from, to): (f64, f64)) -> String {
+fn range_in_words(study: &SystemStudy, (from, to): (f64, f64)) -> String {
     let scale = study.frequency_scale();
     format!("{} to {}{}", digits(scale.of(from)), digits(scale.of(to)), scale.unit)
 }
 
 /// Bands of frequencies, those that are narrow apart.
-fn bands_in_words(study: &dyn StudyWithDesign, bands: &[SufficientBand]) -> String {
+fn bands_in_words(study: &SystemStudy, bands: &[SufficientBand]) -> String {
     let (narrow, wide): (Vec<&SufficientBand>, Vec<&SufficientBand>) =
         bands.iter().partition(|band| band.is_narrow());
     let wide: Vec<String> = wide.into_iter().map(|band| range_in_words(study, band.ends)).collect();
@@ -64,7 +65,7 @@ fn bands_in_words(study: &dyn StudyWithDesign, bands: &[SufficientBand]) -> Stri
 
 impl ActuatorFound {
     /// The result in a few sentences.
-    pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
+    pub fn sentence(&self, study: &SystemStudy) -> String {
         let kind = study.actuator().map_or("actuator", |actuator| actuator.kind().in_words());
         let waveform = label(&self.waveform);
         let mut text = match (&self.coverage.sufficient[..], &self.coverage.best) {
@@ -134,7 +135,7 @@ impl ActuatorFound {
     }
 
     /// Where averaging does not hold or is unsure, after a comma; empty where it is sure.
-    fn unsure_in_words(&self, study: &dyn StudyWithDesign) -> String {
+    fn unsure_in_words(&self, study: &SystemStudy) -> String {
         let Some(slow) = self.slow_dither() else { return String::new() };
         let (holds_from, sure_from) = (BAND_END * slow, FAR * slow);
         let scale = study.frequency_scale();
@@ -157,7 +158,7 @@ impl ActuatorFound {
     }
 
     /// The changes of the limit that binds.
-    fn changes_in_words(&self, study: &dyn StudyWithDesign) -> String {
+    fn changes_in_words(&self, study: &SystemStudy) -> String {
         let scale = study.frequency_scale();
         let changes: Vec<String> = self
             .coverage
@@ -174,8 +175,8 @@ impl ActuatorFound {
 
     /// Warnings: few samples where the actuator suffices, an actuator that changes the structure, and a range that averaging does not
     /// describe.
-    pub fn warnings(&self, study: &dyn StudyWithDesign) -> Vec<String> {
-        let mut warnings = Vec::new();
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let mut warnings = study.warnings().to_vec();
         let scale = study.frequency_scale();
         let known = self.coverage.points.iter().find_map(|point| point.demand.as_ref().ok());
         if let (Some(actuator), Some(demand)) = (study.actuator(), known) {
@@ -206,7 +207,7 @@ impl ActuatorFound {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &dyn StudyWithDesign, own_warnings: &[String]) -> Json {
+    pub fn json(&self, study: &SystemStudy) -> Json {
         let mut fields = study.fields();
         fields.plain("ok", true).plain("sentence", self.sentence(study));
         if let Some(actuator) = study.actuator() {
@@ -270,9 +271,7 @@ impl ActuatorFound {
             inner
         });
         fields.list("resonances", resonances.collect::<Vec<_>>());
-        let warnings: Vec<String> =
-            own_warnings.iter().cloned().chain(self.warnings(study)).collect();
-        fields.plain("warnings", warnings);
+        fields.plain("warnings", self.warnings(study));
         fields.finish()
     }
 
@@ -284,7 +283,7 @@ impl ActuatorFound {
         why.unwrap_or_else(|| "the largest amplitude is unknown there".to_owned())
     }
 
-    fn band_fields(&self, study: &dyn StudyWithDesign, band: &SufficientBand) -> Fields {
+    fn band_fields(&self, study: &SystemStudy, band: &SufficientBand) -> Fields {
         let mut inner = study.fields();
         inner
             .number("from", Quantity::FrequencyRatio, band.ends.0)
@@ -295,12 +294,7 @@ impl ActuatorFound {
     }
 
     /// What is known at one frequency.
-    fn fields_at(
-        &self,
-        study: &dyn StudyWithDesign,
-        at: &ActuatorAtFrequency,
-        unbounded: bool,
-    ) -> Fields {
+    fn fields_at(&self, study: &SystemStudy, at: &ActuatorAtFrequency, unbounded: bool) -> Fields {
         let mut inner = study.fields();
         let reach = at.reach();
         inner.number("frequency", Quantity::FrequencyRatio, at.frequency).known(

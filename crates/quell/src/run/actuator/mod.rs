@@ -8,12 +8,13 @@
 mod answer;
 mod demand;
 
-use std::sync::Arc;
-
 use quell_design::actuator::{Actuator, ActuatorAtFrequency, ActuatorCoverage, coverage};
-use quell_design::least_dither::{BeltPlant, DesignStart, OperatingPoint, Plant};
-use quell_model::parameter::DITHER_FREQUENCY_RATIO;
-use quell_model::{Belt, Waveform};
+use quell_design::least_dither::{DesignStart, OperatingPoint, Plant, SystemPlant};
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
+use quell_model::parameter::BELT_VELOCITY;
+use quell_model::profile::{Profile, Wave};
+use quell_model::{Contact, System, Waveform};
 use quell_numerics::order::{ascending, ascending_by};
 use serde_json::Value as Json;
 
@@ -21,12 +22,12 @@ pub(crate) use demand::{
     beyond_actuator, demand_fields, warning_about_samples, warnings_about_actuator,
 };
 
-use super::design::StudyWithDesign;
+use super::system::{self, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::refused_of_belt;
+use crate::contact_state::refused_where_averaged;
 use crate::parallel::Parallel;
 use crate::run::stability::FAR;
-use crate::study::BeltStudy;
+use crate::study::SystemStudy;
 
 /// Frequencies of the samples, at equal ratios: 1.2 % apart over two decades. Resonances, the frequencies of a measured response and
 /// the frequency of the study are added.
@@ -36,23 +37,23 @@ const SAMPLES: usize = 401;
 const DEFAULT_RANGE: (f64, f64) = (0.1, 10.0);
 
 /// What the requirement and the reach depend on, for one study.
-pub(crate) struct ActuatorQuestion<'a> {
+struct ActuatorQuestion<'a> {
     /// The actuator.
-    pub(crate) actuator: &'a Actuator,
+    actuator: &'a Actuator,
     /// The structure, whose other design variable is the frequency of the dither.
-    pub(crate) plant: &'a (dyn Plant + Sync),
+    plant: &'a (dyn Plant + Sync),
     /// The waveform of the dither.
-    pub(crate) waveform: Waveform,
+    waveform: Waveform,
     /// The table of the dither, such as `dither` or `dither[1]`.
-    pub(crate) dither: String,
+    dither: String,
     /// Frequency and amplitude of the study.
-    pub(crate) own: (f64, f64),
+    own: (f64, f64),
     /// The frequency of the vibration that is to be quenched, or of the least damped motion.
-    pub(crate) slow: Option<f64>,
+    slow: Option<f64>,
     /// Natural frequencies of the structure.
-    pub(crate) resonances: Vec<f64>,
+    resonances: Vec<f64>,
     /// Names of the contacts with the speed of their surface.
-    pub(crate) contacts: Vec<(String, f64)>,
+    contacts: Vec<(String, f64)>,
 }
 
 /// An actuator over frequency.
@@ -85,13 +86,47 @@ impl ActuatorFound {
     }
 }
 
-/// The actuator of a study.
+/// The actuator of a study over a range of angular frequencies.
 ///
 /// # Errors
-/// A complaint about a study without `[actuator]` or without dither.
-pub(crate) fn asked(study: &dyn StudyWithDesign, has_dither: bool) -> Result<&Actuator, Failure> {
+/// A complaint about a study without `[actuator]`, dither or equations, about surfaces at rest, about the range, and about a contact with
+/// a state; a dither whose demand is unknown at every frequency.
+pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFound, Failure> {
+    has_equations(study, "actuator")?;
+    let system = study.system();
+    refused_where_averaged(system, "actuator")?;
+    let actuator = asked(study)?;
+    moves(system)?;
+    let input = designed(study);
+    let wave = system.inputs.get(input).and_then(|input| input.profile.waves().first());
+    let Some(wave) = wave else {
+        return Err(failed("the dither that the actuator gives does not act"));
+    };
+    let linear = Linearised::new(system).map_err(failed)?;
+    let found = spectrum(&linear, &linear.friction()).map_err(failed)?;
+    let at = |place: OperatingPoint<'_>, amplitude: f64| -> Result<System, String> {
+        Ok(with_dither(system, input, amplitude, place.others.first().copied()))
+    };
+    let plant = SystemPlant { at: &at, input, observe: &[], start: DesignStart::Local };
+    let speed = |contact: &Contact| contact.surface_velocity.mean().abs();
+    let contacts = system.contacts.iter();
+    let question = ActuatorQuestion {
+        actuator,
+        plant: &plant,
+        waveform: wave.waveform.clone(),
+        dither: table_of(input, system.inputs.len()),
+        own: (wave.frequency, wave.amplitude),
+        slow: slowest_to_decay(&found),
+        resonances: oscillating(&found).map(SmallMotion::frequency).collect(),
+        contacts: contacts.map(|contact| (contact.name.clone(), speed(contact))).collect(),
+    };
+    question.answer(range)
+}
+
+/// The actuator of a study that has one, and a dither.
+fn asked(study: &SystemStudy) -> Result<&Actuator, Failure> {
     let (key, allowed) = match study.actuator() {
-        Some(actuator) if has_dither => return Ok(actuator),
+        Some(actuator) if study.system().waves().next().is_some() => return Ok(actuator),
         Some(_) => {
             ("dither", "given: its direction and waveform are those that the actuator gives")
         }
@@ -103,42 +138,54 @@ pub(crate) fn asked(study: &dyn StudyWithDesign, has_dither: bool) -> Result<&Ac
     Err(Complaint::new(Fault::Missing, key, Origin::Whole, Json::Null, allowed).into())
 }
 
-/// The actuator of a belt over a range of frequency ratios.
-///
-/// # Errors
-/// A complaint about a study without `[actuator]` or dither, about the range, and about a contact with a state; a dither whose demand
-/// is unknown at every frequency.
-pub fn run(study: &BeltStudy, range: Option<(f64, f64)>) -> Result<ActuatorFound, Failure> {
-    refused_of_belt(study, "actuator")?;
-    let belt = study.belt();
-    let actuator = asked(study, !belt.dithers().is_empty())?;
-    super::moves(study, "sliding on it is to be stable")?;
-    let path = belt.dither_path(0, DITHER_FREQUENCY_RATIO.key());
-    let first = &belt.dithers()[0];
-    let at = |at: OperatingPoint<'_>| {
-        let quiet = belt.with_amplitude(0, 0.0);
-        let ratio = |belt: Belt| match at.others {
-            [ratio] => belt.with_frequency_ratio(0, *ratio),
-            _ => Ok(belt),
-        };
-        quiet.and_then(ratio).map_err(|why| why.to_string())
-    };
-    let plant = BeltPlant { at: Arc::new(at), start: DesignStart::Local };
-    let question = ActuatorQuestion {
-        actuator,
-        plant: &plant,
-        waveform: first.waveform.clone(),
-        dither: path.rsplit_once('.').map_or_else(String::new, |(table, _)| table.to_owned()),
-        own: (first.frequency_ratio, first.amplitude),
-        slow: Some(1.0),
-        resonances: vec![1.0],
-        contacts: vec![("belt".to_owned(), belt.belt_velocity())],
-    };
-    let most = DITHER_FREQUENCY_RATIO.bounds.upper;
-    if let Some((from, to)) = range.filter(|(_, to)| *to > most) {
-        return Err(wrong_range((from, to), &format!("frequency ratios up to {most}")));
+/// Rejects surfaces at rest, on which any position in the stick band is an equilibrium.
+fn moves(system: &System) -> Result<(), Failure> {
+    let speed = |contact: &Contact| contact.surface_velocity.mean().abs();
+    if system.contacts.is_empty() || system.contacts.iter().any(|contact| speed(contact) > 0.0) {
+        return Ok(());
     }
-    question.answer(range, most)
+    let allowed = "above 0: sliding on it is to be stable";
+    Err(Complaint::new(Fault::Value, BELT_VELOCITY.path, Origin::Whole, 0.0, allowed).into())
+}
+
+/// The dither whose amplitude the study designs, or the first.
+pub(in crate::run) fn designed(study: &SystemStudy) -> usize {
+    let varied = study.design().map_or(&[][..], |design| &design.vary);
+    varied.iter().find_map(|range| study.dither_of(&range.path)).unwrap_or(0)
+}
+
+/// The table of a dither.
+fn table_of(input: usize, count: usize) -> String {
+    if count > 1 { format!("dither[{input}]") } else { "dither".to_owned() }
+}
+
+/// The system with an amplitude and a frequency of one dither.
+fn with_dither(system: &System, input: usize, amplitude: f64, frequency: Option<f64>) -> System {
+    let mut system = system.clone();
+    if let Some(input) = system.inputs.get_mut(input)
+        && let [wave] = input.profile.waves()
+    {
+        let frequency = frequency.unwrap_or(wave.frequency);
+        let wave = Wave { amplitude, frequency, ..wave.clone() };
+        input.profile = Profile::constant(input.profile.mean()).with(wave);
+    }
+    system
+}
+
+/// The small motions that oscillate.
+fn oscillating(found: &MotionSpectrum) -> impl Iterator<Item = &SmallMotion> {
+    found.motions.iter().filter(|motion| motion.eigenvalue.im > 0.0)
+}
+
+/// The frequency of the motion that grows fastest, or decays most slowly.
+fn slowest_to_decay(found: &MotionSpectrum) -> Option<f64> {
+    let motions = oscillating(found);
+    let worst = motions.max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re))?;
+    Some(worst.frequency())
+}
+
+fn failed(why: impl std::fmt::Display) -> Failure {
+    system::failed("actuator", why)
 }
 
 /// The complaint about a range of frequencies.
@@ -147,16 +194,12 @@ fn wrong_range((from, to): (f64, f64), allowed: &str) -> Failure {
 }
 
 impl ActuatorQuestion<'_> {
-    /// The answer over a range of frequencies up to a largest one.
+    /// The answer over a range of frequencies.
     ///
     /// # Errors
     /// A complaint about the range; a dither whose demand is unknown at every frequency.
-    pub(crate) fn answer(
-        self,
-        range: Option<(f64, f64)>,
-        most: f64,
-    ) -> Result<ActuatorFound, Failure> {
-        let (from, to) = range.unwrap_or_else(|| self.default_range(most));
+    fn answer(self, range: Option<(f64, f64)>) -> Result<ActuatorFound, Failure> {
+        let (from, to) = range.unwrap_or_else(|| self.default_range());
         if !(from > 0.0 && to > from && to.is_finite()) {
             return Err(wrong_range(
                 (from, to),
@@ -168,7 +211,7 @@ impl ActuatorQuestion<'_> {
         let samples: Vec<ActuatorAtFrequency> =
             frequencies.in_parallel(|frequency| at(*frequency)).collect();
         if let Some(why) = unknown_everywhere(&samples) {
-            return Err(Failure::Failed { key: "actuator".to_owned(), why });
+            return Err(failed(why));
         }
         let samples = without_poles(samples, &self.resonances);
         let found = coverage(samples, &at);
@@ -200,7 +243,7 @@ impl ActuatorQuestion<'_> {
     }
 
     /// The measured range of a frequency response; else around the study's own frequency, above the vibration itself.
-    fn default_range(&self, most: f64) -> (f64, f64) {
+    fn default_range(&self) -> (f64, f64) {
         let measured = self.actuator.measured_frequencies();
         if let [first, .., last] = measured {
             return (*first, *last);
@@ -215,7 +258,7 @@ impl ActuatorQuestion<'_> {
         } else {
             DEFAULT_RANGE.0 * own
         };
-        (from, f64::min(DEFAULT_RANGE.1 * own, most))
+        (from, DEFAULT_RANGE.1 * own)
     }
 
     /// The frequencies of the samples.

@@ -72,6 +72,7 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
         .reference_hz()
         .map(|hertz| ScaledTime { per_second: TAU * hertz, plain_in_seconds: study.is_si() });
     study.as_system(DescribedSystem {
+        actuator: None,
         units: UnitSystem::None,
         system,
         observe: observed_row(study),

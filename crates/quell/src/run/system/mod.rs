@@ -1,6 +1,5 @@
 //! Runs of a study of a system: one file per verb.
 
-pub mod actuator;
 pub mod attractor;
 pub mod cycle_samples;
 pub mod design;
