@@ -70,7 +70,7 @@ use quell_model::{OneMass, Profile, System};
 
 use engine::MotionRun;
 use equations::MotionEquations;
-use one_mass::{PlannedMass, run_mass};
+use one_mass::{PlannedMass, continue_mass, run_mass};
 use selection::first_minor_not_positive;
 
 use crate::simulation::DEFAULT_TOLERANCE;
@@ -240,6 +240,13 @@ impl<'s> Motion<'s> {
         until: f64,
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {
+        if let (Some(mass), [Some(ContactPhase::Slip(sign))]) = (&self.one_mass, phases) {
+            let run = PlannedMass { mass, start: start.clone(), until, observer };
+            return continue_mass(run, *sign, MOTION_TOLERANCE);
+        }
+        if self.one_mass.is_some() {
+            return self.run(start, until, MOTION_TOLERANCE, observer);
+        }
         let parts = (self.system, &self.equations);
         let run = MotionRun::new(parts, start, until, MOTION_TOLERANCE, observer);
         run.keeping(phases).run()

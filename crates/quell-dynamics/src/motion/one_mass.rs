@@ -16,7 +16,7 @@ use super::state::{ContactEnd, MotionEnd, MotionStart};
 use super::stopped::{MotionStopped, StopReason};
 use crate::simulation::{
     Clock, DEFAULT_TOLERANCE, Event, EventKind, FinalState, Forcing, ORDER, Observer, Segment,
-    Series, SimulationRun, Stalled, Start, simulate, simulate_many_with,
+    Series, SimulationRun, Stalled, Start, continue_slip, simulate, simulate_many_with,
 };
 
 /// Length of the state.
@@ -46,6 +46,19 @@ pub(super) fn run_mass(
     let mut view = MassView::new(mass, &start, observer);
     let (units, start, end) = (view.units, view.start, mass.rate() * until);
     let outcome = simulate(mass.belt(), start, end, OF_THE_LOAD * tolerance, &mut view);
+    units.outcome(outcome, until)
+}
+
+/// The same on the branch of slip with this sign, beyond v_r = 0 too.
+pub(super) fn continue_mass(
+    PlannedMass { mass, start, until, observer }: PlannedMass<'_>,
+    sign: i8,
+    tolerance: f64,
+) -> Result<MotionEnd, MotionStopped> {
+    let mut view = MassView::new(mass, &start, observer);
+    let (units, start, end) = (view.units, view.start, mass.rate() * until);
+    let tolerance = OF_THE_LOAD * tolerance;
+    let outcome = continue_slip(mass.belt(), f64::from(sign), start, end, tolerance, &mut view);
     units.outcome(outcome, until)
 }
 
