@@ -70,7 +70,7 @@ use quell_model::{OneMass, Profile, System};
 
 use engine::MotionRun;
 use equations::MotionEquations;
-use one_mass::{PlannedMass, continue_mass, run_mass};
+use one_mass::{MassShot, PlannedMass, continue_mass, run_mass, shoot_mass};
 use selection::first_minor_not_positive;
 
 use crate::simulation::DEFAULT_TOLERANCE;
@@ -229,6 +229,16 @@ impl<'s> Motion<'s> {
         let parts = (self.system, &self.equations);
         let start = MotionStart { time: 0.0, state: state.to_vec() };
         MotionRun::new(parts, &start, f64::INFINITY, MOTION_TOLERANCE, &mut ()).at_sliding_levels()
+    }
+
+    /// A run of one mass with its derivative, on the branch of slip with a sign or as it is; `None` for other systems.
+    pub(crate) fn mass_shot(
+        &self,
+        (start, until): (&MotionStart, f64),
+        sign: Option<i8>,
+        tolerance: f64,
+    ) -> Option<Result<MassShot, MotionStopped>> {
+        self.one_mass.as_ref().map(|mass| shoot_mass(mass, (start, until), sign, tolerance))
     }
 
     /// The same with some contacts kept in these phases: the smooth continuation of a motion beyond the borders of the phases,

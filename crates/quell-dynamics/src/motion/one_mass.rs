@@ -6,17 +6,22 @@
 use quell_model::friction::FrictionConstants;
 use quell_model::{Belt, Direction, OneMass};
 use quell_numerics::dispatch::{InstructionSet, Work, with_fused_multiply_add};
+use quell_numerics::matrix::Matrix;
 use quell_numerics::polynomial::{derivative, step_length, value};
 
 use super::contact_series::ContactSeries;
-use super::observer::{MotionEvent, MotionMoment, MotionObserver, MotionSegment, Trigger};
+use super::observer::{
+    MotionEvent, MotionMoment, MotionObserver, MotionSegment, RecordedEvent, Trigger,
+};
 use super::own_state::law_of;
 use super::phase::{ContactNow, ContactPhase};
 use super::state::{ContactEnd, MotionEnd, MotionStart};
 use super::stopped::{MotionStopped, StopReason};
+use crate::orbit::Variation;
 use crate::simulation::{
-    Clock, DEFAULT_TOLERANCE, Event, EventKind, FinalState, Forcing, ORDER, Observer, Segment,
-    Series, SimulationRun, Stalled, Start, continue_slip, simulate, simulate_many_with,
+    Clock, DEFAULT_TOLERANCE, Event, EventKind, EventRecorder, FinalState, Forcing, ORDER,
+    Observer, Segment, Series, SimulationRun, Stalled, Start, continue_slip, simulate,
+    simulate_many_with,
 };
 
 /// Length of the state.
@@ -49,7 +54,53 @@ pub(super) fn run_mass(
     units.outcome(outcome, until)
 }
 
-/// The same on the branch of slip with this sign, beyond v_r = 0 too.
+/// A run with the derivative of its end, and its events.
+pub(crate) struct MassShot {
+    pub(crate) end: MotionEnd,
+    /// Derivative of the final state with respect to the initial state.
+    pub(crate) derivative: Matrix,
+    pub(crate) events: Vec<RecordedEvent>,
+    /// Least slip velocity in the direction of slip; infinite without slip.
+    pub(crate) least_slip: f64,
+}
+
+/// Integrates a run with the matrix of changes of the belt ([`Variation`]): on the branch of slip with a sign, beyond v_r = 0 too, or as
+/// it is.
+pub(super) fn shoot_mass(
+    mass: &OneMass,
+    (start, until): (&MotionStart, f64),
+    sign: Option<i8>,
+    tolerance: f64,
+) -> Result<MassShot, MotionStopped> {
+    let (belt, units) = (mass.belt(), MassUnits { mass });
+    let (from, end) = (units.start(start), mass.rate() * until);
+    let (mut variation, mut recorder) = (Variation::new(belt), EventRecorder::default());
+    let mut observer = (&mut variation, &mut recorder);
+    let tolerance = OF_THE_LOAD * tolerance;
+    let outcome = match sign {
+        Some(sign) => continue_slip(belt, f64::from(sign), from, end, tolerance, &mut observer),
+        None => simulate(belt, from, end, tolerance, &mut observer),
+    };
+    let end = units.outcome(outcome, until)?;
+    // What one of each number of the belt's state is in that of the system.
+    let scales = [mass.displacement(), 1.0 / mass.tangent()];
+    let matrix = variation.matrix;
+    let events = recorder.events.iter().map(|event| RecordedEvent {
+        time: event.time / mass.rate(),
+        contact: 0,
+        kind: event.kind,
+        slip_sign: event.slip_sign,
+        state: units.state(event.displacement, event.velocity).to_vec(),
+    });
+    Ok(MassShot {
+        end,
+        derivative: Matrix::from_fn(SIZE, SIZE, |i, j| matrix[i][j] * scales[i] / scales[j]),
+        events: events.collect(),
+        least_slip: variation.least.map_or(f64::INFINITY, |(least, _)| least),
+    })
+}
+
+/// [`run_mass`] on the branch of slip with this sign, beyond v_r = 0 too.
 pub(super) fn continue_mass(
     PlannedMass { mass, start, until, observer }: PlannedMass<'_>,
     sign: i8,

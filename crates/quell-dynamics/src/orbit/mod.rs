@@ -39,4 +39,5 @@ pub(crate) use period_map::multipliers_of;
 pub use periodic_orbit::Orbit;
 pub use shooting::{from_sliding, near};
 pub use variation::Matrix2;
+pub(crate) use variation::Variation;
 pub use verdict::OrbitVerdict;

@@ -28,23 +28,23 @@ pub type Matrix2 = [[f64; 2]; 2];
 
 /// Integrates the matrix of changes along a run.
 #[derive(Clone, Debug)]
-pub(super) struct Variation<'a> {
+pub(crate) struct Variation<'a> {
     belt: &'a Belt,
     /// Derivative of the final state with respect to the initial state.
-    pub(super) matrix: Matrix2,
+    pub(crate) matrix: Matrix2,
     /// ∫(2ζ + μ′N) over slip.
     pub(super) damping: f64,
     /// Events in order, with the sign of v_r afterwards.
     pub(super) events: Vec<(EventKind, i8)>,
     /// Least slip velocity in the direction of slip, and its time.
-    pub(super) least: Option<(f64, f64)>,
+    pub(crate) least: Option<(f64, f64)>,
     /// Time spent in stick.
     pub(super) stuck: f64,
     sign: i8,
 }
 
 impl<'a> Variation<'a> {
-    pub(super) fn new(belt: &'a Belt) -> Self {
+    pub(crate) fn new(belt: &'a Belt) -> Self {
         Self {
             belt,
             matrix: [[1.0, 0.0], [0.0, 1.0]],

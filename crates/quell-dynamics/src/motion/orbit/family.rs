@@ -13,8 +13,8 @@ use quell_numerics::continuation::{Image, PeriodMap};
 use quell_numerics::cyclic::least_rotation;
 
 use super::super::{
-    ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionStart,
-    MotionStopped, MotionVariation, RecordedEvent,
+    ContactPhase, Immobile, MOTION_TOLERANCE, MassShot, Motion, MotionEnd, MotionObserver,
+    MotionStart, MotionStopped, MotionVariation, RecordedEvent,
 };
 use crate::simulation::{EventKind, count_taken};
 
@@ -237,6 +237,14 @@ pub(super) fn shot_within(
     held: Option<&MotionSignature>,
     tolerance: f64,
 ) -> Result<(Image<MotionSignature>, Shot), NoImage> {
+    let start = MotionStart { time: 0.0, state: state.to_vec() };
+    let sign = held.and_then(|held| match held.throughout(0) {
+        Some(ContactPhase::Slip(sign)) => Some(sign),
+        _ => None,
+    });
+    if let Some(found) = motion.mass_shot((&start, time), sign, tolerance) {
+        return Ok(of_one_mass(motion, found.map_err(NoImage::Stopped)?));
+    }
     let new = || MotionVariation::new(motion);
     let (end, variation) = run_over(motion, state, (time, tolerance), held, new)?;
     count_taken(VARIATION * end.steps);
@@ -251,6 +259,21 @@ pub(super) fn shot_within(
     let shot = Shot { events, is_one_sided, approaches };
     let distance = shot.nearest(&signature).map_or(f64::INFINITY, |(_, distance)| distance);
     Ok((Image { state: end.state, derivative, distance, signature }, shot))
+}
+
+/// The image and what was met on the way of one mass, from its run.
+fn of_one_mass(motion: &Motion<'_>, found: MassShot) -> (Image<MotionSignature>, Shot) {
+    let MassShot { end, derivative, events, least_slip } = found;
+    count_taken(VARIATION * end.steps);
+    let phases: Vec<ContactPhase> = end.contacts.iter().map(|contact| contact.phase).collect();
+    let signature = MotionSignature::of(&in_order(&events, 0.0), phases);
+    let contact = &motion.system().contacts[0];
+    let speed = contact.surface_velocity.mean().abs();
+    let scale = if speed > 0.0 { speed } else { contact.friction.velocity_scale() };
+    let approaches = vec![[least_slip / scale, f64::INFINITY]];
+    let shot = Shot { events, is_one_sided: false, approaches };
+    let distance = shot.nearest(&signature).map_or(f64::INFINITY, |(_, distance)| distance);
+    (Image { state: end.state, derivative, distance, signature }, shot)
 }
 
 /// Events of different contacts within a time are listed in the order of contacts, as events of one moment are: of equal parts of a
