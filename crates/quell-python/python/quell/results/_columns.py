@@ -57,6 +57,7 @@ class ActuatorColumns(Frozen):
     resonance_limit: npt.NDArray[np.str_]
     resonance_margin: npt.NDArray[np.float64]
     resonance_needed: npt.NDArray[np.float64]
+    slip_of_belt: npt.NDArray[np.float64]
     sufficient_from: npt.NDArray[np.float64]
     sufficient_narrow: npt.NDArray[Any]
     sufficient_to: npt.NDArray[np.float64]

@@ -65,6 +65,9 @@ impl ContactAverages<'_> {
 
     /// Largest fast slip velocity in the study's own sliding.
     pub(super) fn fast_velocity(&self) -> Result<f64, String> {
+        if !self.system.is_dithered() {
+            return Ok(0.0);
+        }
         let (law, _) = self.own.as_ref()?;
         law.fast_velocity().map_err(|why| why.to_string())
     }
@@ -97,6 +100,11 @@ impl ContactAverages<'_> {
     fn mean_at(&self, v: f64) -> Result<Effective, String> {
         if self.contact().has_state() {
             return self.mean_of_state(v);
+        }
+        if !self.system.is_dithered() {
+            // The law itself, whether or not the surface of the study moves.
+            let law = AveragedLaw::undithered(&self.contact().friction);
+            return law.at(v).map_err(|why| why.to_string());
         }
         if !depends_on_friction(self.system) {
             let (law, _) = self.own.as_ref()?;

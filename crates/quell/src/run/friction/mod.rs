@@ -44,6 +44,7 @@ pub fn run(
     let mass = if measured { Some(one_mass(system)?) } else { None };
     let (mut contacts, mut warnings) = (Vec::new(), study.warnings().to_vec());
     warnings.extend(few_lines(system));
+    warnings.extend(warnings::slow_dither(study));
     for (contact, means) in system.contacts.iter().zip(means::contacts(system)) {
         let at = at.map_or_else(|| means.grid(), <[f64]>::to_vec);
         let curve = FrictionCurve {
@@ -68,8 +69,8 @@ pub fn run(
 /// The mass whose steady responses measure friction.
 fn one_mass(system: &System) -> Result<quell_model::OneMass, Failure> {
     system.one_mass().ok_or_else(|| {
-        let allowed = "left out for other studies than one mass with a rigid contact: `response` gives the mean friction of every contact in \
-                       the steady response";
+        let allowed = "left out for other studies than one mass with a rigid contact on a surface of constant velocity, not below 0: \
+                       `response` gives the mean friction of every contact in the steady response";
         let origin = Origin::Argument("--measured");
         Complaint::new(Fault::Conflict, "--measured", origin, Json::Null, allowed).into()
     })

@@ -1,17 +1,30 @@
 //! Warnings about the friction of a contact: slip beyond the range of its law, and averages that do not hold.
 
 use quell_dynamics::response::SteadyFriction;
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::spectrum;
 use quell_model::{Belt, Contact, Direction};
 
 use super::curve::ContactFriction;
 use super::means::ContactAverages;
 use crate::contact_state;
 use crate::range;
+use crate::run::stability::not_slow;
 use crate::run::system::velocity_in_words;
 use crate::study::SystemStudy;
 
 /// Relative difference up to which measured and averaged friction agree.
 const AGREES: f64 = 0.1;
+
+/// The warning about a dither that is not much faster than every motion.
+pub(super) fn slow_dither(study: &SystemStudy) -> Option<String> {
+    let system = study.system();
+    if !system.is_dithered() {
+        return None;
+    }
+    let linear = Linearised::new(system).ok()?;
+    not_slow(study, &spectrum(&linear, &linear.friction()).ok()?)
+}
 
 /// The warnings about one contact.
 pub(super) fn of_contact(

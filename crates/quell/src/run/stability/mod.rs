@@ -148,7 +148,7 @@ fn undithered(system: &System) -> Result<(MotionSpectrum, Vec<SlidingContact>, f
 }
 
 /// The warning about motions that are not much slower than the dither.
-fn not_slow(study: &SystemStudy, slow: &MotionSpectrum) -> Option<String> {
+pub(in crate::run) fn not_slow(study: &SystemStudy, slow: &MotionSpectrum) -> Option<String> {
     let slowest = study.system().waves().map(Wave::lowest).fold(f64::INFINITY, f64::min);
     let near = upper(slow).filter(|motion| natural(motion) * FAST > slowest);
     let distance = |motion: &SmallMotion| (natural(motion) - slowest).abs();
