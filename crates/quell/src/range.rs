@@ -148,24 +148,19 @@ pub(crate) fn at_amplitude(belt: &Belt, amplitude: f64) -> f64 {
 
 /// Warnings if averages at the study's own slip, v₀, leave the range.
 pub(crate) fn averaged(study: &BeltStudy) -> Vec<String> {
-    averaged_at(study, study.belt().belt_velocity())
-}
-
-/// Warnings if averages at slip speeds up to `slip` leave the range.
-pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     let belt = study.belt();
     let Some(range) = belt.friction().range() else { return Vec::new() };
     let mut warnings = Vec::new();
-    let (together, fast) = (with_dither(belt, slip), fast_velocity(belt));
-    if together > range.upper {
-        let what = match (fast > 0.0, slip == belt.belt_velocity()) {
-            (true, _) => "slip including dither reaches".to_owned(),
-            (false, true) => "slip without dither reaches".to_owned(),
-            (false, false) => "slip reaches".to_owned(),
-        };
-        warnings.push(sentence(study, &range, &what, together));
+    let (slow, fast) = (belt.belt_velocity(), fast_velocity(belt));
+    if slow + fast > range.upper {
+        let dither = if fast > 0.0 { "including" } else { "without" };
+        warnings.push(sentence(
+            study,
+            &range,
+            &format!("slip {dither} dither reaches"),
+            slow + fast,
+        ));
     }
-    let slow = belt.belt_velocity();
     if slow > 0.0 && slow < range.lower {
         warnings.push(sentence(study, &range, "steady sliding has a slip of", slow));
     }
@@ -181,14 +176,13 @@ pub(crate) fn at_contact(
 ) -> Option<String> {
     let range = contact.friction.range()?;
     let slow = contact.surface_velocity.mean().abs();
-    let met = if slip > range.upper {
+    let (verb, slip) = if slip > range.upper {
         ("reaches", slip)
     } else if slow > 0.0 && slow < range.lower {
         ("is", slow)
     } else {
         return None;
     };
-    let (verb, slip) = met;
     Some(format!(
         "the slip velocity at contact {} {verb} {}, outside the range of the {} law, {} to {} ({}): numbers from there are \
              extrapolated",

@@ -70,7 +70,7 @@ use quell_model::{OneMass, Profile, System};
 
 use engine::MotionRun;
 use equations::MotionEquations;
-use one_mass::{MassShot, PlannedMass, continue_mass, run_mass, shoot_mass};
+use one_mass::{MassShot, PlannedMass, run_mass, shoot_mass};
 use selection::first_minor_not_positive;
 
 use crate::simulation::DEFAULT_TOLERANCE;
@@ -210,7 +210,7 @@ impl<'s> Motion<'s> {
     ) -> Result<MotionEnd, MotionStopped> {
         if let Some(mass) = &self.one_mass {
             let run = PlannedMass { mass, start: start.clone(), until, observer };
-            return run_mass(run, tolerance);
+            return run_mass(run, None, tolerance);
         }
         let parts = (self.system, &self.equations);
         if start.state.len() == self.size() {
@@ -231,14 +231,17 @@ impl<'s> Motion<'s> {
         MotionRun::new(parts, &start, f64::INFINITY, MOTION_TOLERANCE, &mut ()).at_sliding_levels()
     }
 
-    /// A run of one mass with its derivative, on the branch of slip with a sign or as it is; `None` for other systems.
+    /// A run of one mass from a state at t = 0 with its derivative, on the branch of slip with a sign or as it is; `None` for other
+    /// systems.
     pub(crate) fn mass_shot(
         &self,
-        (start, until): (&MotionStart, f64),
+        (state, until): (&[f64], f64),
         sign: Option<i8>,
         tolerance: f64,
     ) -> Option<Result<MassShot, MotionStopped>> {
-        self.one_mass.as_ref().map(|mass| shoot_mass(mass, (start, until), sign, tolerance))
+        let mass = self.one_mass.as_ref()?;
+        let start = MotionStart { time: 0.0, state: state.to_vec() };
+        Some(shoot_mass(mass, (&start, until), sign, tolerance))
     }
 
     /// The same with some contacts kept in these phases: the smooth continuation of a motion beyond the borders of the phases,
@@ -250,12 +253,10 @@ impl<'s> Motion<'s> {
         until: f64,
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {
-        if let (Some(mass), [Some(ContactPhase::Slip(sign))]) = (&self.one_mass, phases) {
+        if let Some(mass) = &self.one_mass {
+            let sign = phases.first().copied().flatten().map(ContactPhase::slip_sign);
             let run = PlannedMass { mass, start: start.clone(), until, observer };
-            return continue_mass(run, *sign, MOTION_TOLERANCE);
-        }
-        if self.one_mass.is_some() {
-            return self.run(start, until, MOTION_TOLERANCE, observer);
+            return run_mass(run, sign, MOTION_TOLERANCE);
         }
         let parts = (self.system, &self.equations);
         let run = MotionRun::new(parts, start, until, MOTION_TOLERANCE, observer);

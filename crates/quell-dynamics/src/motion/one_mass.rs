@@ -43,15 +43,31 @@ pub(super) struct PlannedMass<'a> {
     pub(super) observer: &'a mut dyn MotionObserver,
 }
 
-/// Integrates a run of a system of one mass.
+/// Integrates a run of a system of one mass; with a sign on that branch of slip, beyond v_r = 0 too.
 pub(super) fn run_mass(
     PlannedMass { mass, start, until, observer }: PlannedMass<'_>,
+    sign: Option<i8>,
     tolerance: f64,
 ) -> Result<MotionEnd, MotionStopped> {
     let mut view = MassView::new(mass, &start, observer);
-    let (units, start, end) = (view.units, view.start, mass.rate() * until);
-    let outcome = simulate(mass.belt(), start, end, OF_THE_LOAD * tolerance, &mut view);
+    let (units, span) = (view.units, (view.start, mass.rate() * until));
+    let outcome = run_belt(mass.belt(), span, sign, tolerance, &mut view);
     units.outcome(outcome, until)
+}
+
+/// Integrates the belt of a mass, on a branch of slip or as it is.
+fn run_belt(
+    belt: &Belt,
+    (start, until): (Start, f64),
+    sign: Option<i8>,
+    tolerance: f64,
+    observer: &mut dyn Observer,
+) -> Result<FinalState, Stalled> {
+    let tolerance = OF_THE_LOAD * tolerance;
+    match sign {
+        Some(sign) => continue_slip(belt, f64::from(sign), start, until, tolerance, observer),
+        None => simulate(belt, start, until, tolerance, observer),
+    }
 }
 
 /// A run with the derivative of its end, and its events.
@@ -73,14 +89,10 @@ pub(super) fn shoot_mass(
     tolerance: f64,
 ) -> Result<MassShot, MotionStopped> {
     let (belt, units) = (mass.belt(), MassUnits { mass });
-    let (from, end) = (units.start(start), mass.rate() * until);
     let (mut variation, mut recorder) = (Variation::new(belt), EventRecorder::default());
     let mut observer = (&mut variation, &mut recorder);
-    let tolerance = OF_THE_LOAD * tolerance;
-    let outcome = match sign {
-        Some(sign) => continue_slip(belt, f64::from(sign), from, end, tolerance, &mut observer),
-        None => simulate(belt, from, end, tolerance, &mut observer),
-    };
+    let span = (units.start(start), mass.rate() * until);
+    let outcome = run_belt(belt, span, sign, tolerance, &mut observer);
     let end = units.outcome(outcome, until)?;
     // What one of each number of the belt's state is in that of the system.
     let scales = [mass.displacement(), 1.0 / mass.tangent()];
@@ -98,19 +110,6 @@ pub(super) fn shoot_mass(
         events: events.collect(),
         least_slip: variation.least.map_or(f64::INFINITY, |(least, _)| least),
     })
-}
-
-/// [`run_mass`] on the branch of slip with this sign, beyond v_r = 0 too.
-pub(super) fn continue_mass(
-    PlannedMass { mass, start, until, observer }: PlannedMass<'_>,
-    sign: i8,
-    tolerance: f64,
-) -> Result<MotionEnd, MotionStopped> {
-    let mut view = MassView::new(mass, &start, observer);
-    let (units, start, end) = (view.units, view.start, mass.rate() * until);
-    let tolerance = OF_THE_LOAD * tolerance;
-    let outcome = continue_slip(mass.belt(), f64::from(sign), start, end, tolerance, &mut view);
-    units.outcome(outcome, until)
 }
 
 /// Bound on the last terms of a step relative to F, over that relative to the numbers of the state: with it judges run one mass at 10⁻¹⁴

@@ -1,12 +1,11 @@
 //! A contact of a structure in the limit of high dither frequency, where springs and dampers do nothing: a free mass.
 
-use std::f64::consts::PI;
-
 use quell_numerics::matrix::Matrix;
 
 use super::Belt;
+use super::one_mass::dither_of;
 use crate::dither::{Direction, Dither};
-use crate::profile::{Profile, Wave};
+use crate::profile::Profile;
 use crate::system::{Contact, Input, InputTarget, System};
 
 impl System {
@@ -66,7 +65,7 @@ impl System {
             };
             dithers.extend(free_dithers(direction, share, profile)?);
         }
-        Ok(Belt {
+        let belt = Belt {
             damping_ratio: 0.0,
             normal_load: mobility * load,
             belt_velocity: own.surface_velocity.mean().abs(),
@@ -76,7 +75,11 @@ impl System {
             drive: None,
             load: None,
             scales: None,
-        })
+        };
+        if belt.total_amplitude(Direction::Normal) > belt.normal_load {
+            return Err("the dither opens the contact");
+        }
+        Ok(belt)
     }
 }
 
@@ -100,33 +103,17 @@ fn free_dithers(
     if !profile.is_steady() {
         return Err("a dither varies in time");
     }
-    let turned = |wave: &Wave| {
-        let Wave { waveform, phase, .. } = wave;
-        if share >= 0.0 {
-            return Ok((waveform.clone(), *phase));
-        }
-        if waveform.is_symmetric() {
-            return Ok((waveform.clone(), phase + PI));
-        }
-        let negated = waveform.negated();
-        negated.map(|own| (own, *phase)).ok_or("a dither pushes backwards, and has no mirror image")
-    };
     let waves = profile.waves().iter().map(|wave| {
-        let (waveform, phase) = turned(wave)?;
-        Ok(Dither {
-            direction,
-            waveform,
-            amplitude: share.abs() * wave.amplitude,
-            frequency_ratio: wave.frequency,
-            phase,
-            envelope: None,
-        })
+        let dither = dither_of(direction, share * wave.amplitude, (wave.frequency, wave));
+        dither.ok_or("a dither pushes backwards, and has no mirror image")
     });
     waves.collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::Waveform;
     use crate::friction::LawKind;
@@ -163,6 +150,9 @@ mod tests {
         assert_eq!(free.dithers()[0].amplitude, 0.3);
         assert_eq!(free.dithers()[0].phase, PI);
         assert_eq!(free.dithers()[1], belt.dithers()[1]);
+        let mut opened = system.clone();
+        opened.contacts[0].normal_load = 0.4;
+        assert_eq!(opened.free_mass(0), Err("the dither opens the contact"));
         system.contacts[0].normal = Some(vec![0.0, 1.0]);
         assert!(system.free_mass(0).is_err());
     }

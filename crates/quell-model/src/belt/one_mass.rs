@@ -191,20 +191,29 @@ impl Units {
     fn dither(&self, direction: Direction, share: f64, wave: &Wave) -> Option<Dither> {
         let amplitude = share * wave.amplitude / self.force;
         let frequency_ratio = wave.frequency / self.rate;
-        let is_turned = amplitude < 0.0;
-        if is_turned && !wave.waveform.is_symmetric() {
-            return None;
-        }
+        // A mirror image would be another waveform than that of the system.
+        let is_own = amplitude >= 0.0 || wave.waveform.is_symmetric();
         let usable = amplitude.is_finite() && frequency_ratio.is_normal() && frequency_ratio > 0.0;
-        usable.then(|| Dither {
-            direction,
-            waveform: wave.waveform.clone(),
-            amplitude: amplitude.abs(),
-            frequency_ratio,
-            phase: if is_turned { wave.phase + PI } else { wave.phase },
-            envelope: None,
-        })
+        (usable && is_own).then(|| dither_of(direction, amplitude, (frequency_ratio, wave)))?
     }
+}
+
+/// A wave as a dither; one that pushes backwards by half a period of a symmetric waveform, else by its mirror image. `None` where it has
+/// none.
+pub(super) fn dither_of(
+    direction: Direction,
+    amplitude: f64,
+    (frequency_ratio, wave): (f64, &Wave),
+) -> Option<Dither> {
+    let (waveform, phase) = if amplitude >= 0.0 {
+        (wave.waveform.clone(), wave.phase)
+    } else if wave.waveform.is_symmetric() {
+        (wave.waveform.clone(), wave.phase + PI)
+    } else {
+        (wave.waveform.negated()?, wave.phase)
+    };
+    let amplitude = amplitude.abs();
+    Some(Dither { direction, waveform, amplitude, frequency_ratio, phase, envelope: None })
 }
 
 #[cfg(test)]

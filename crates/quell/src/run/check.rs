@@ -6,8 +6,7 @@ use quell_model::system::{Contact, Input, InputTarget, Structure};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::actuator::beyond_actuator;
-use super::actuator::designed;
+use super::actuator::{beyond_actuator, designed};
 use super::law;
 use super::system::velocity_in_words;
 use crate::fields::Fields;

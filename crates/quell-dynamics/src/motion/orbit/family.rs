@@ -237,12 +237,11 @@ pub(super) fn shot_within(
     held: Option<&MotionSignature>,
     tolerance: f64,
 ) -> Result<(Image<MotionSignature>, Shot), NoImage> {
-    let start = MotionStart { time: 0.0, state: state.to_vec() };
     let sign = held.and_then(|held| match held.throughout(0) {
         Some(ContactPhase::Slip(sign)) => Some(sign),
         _ => None,
     });
-    if let Some(found) = motion.mass_shot((&start, time), sign, tolerance) {
+    if let Some(found) = motion.mass_shot((state, time), sign, tolerance) {
         return Ok(of_one_mass(motion, found.map_err(NoImage::Stopped)?));
     }
     let new = || MotionVariation::new(motion);
