@@ -37,18 +37,33 @@ class Slider:
         name = f"quell-{one.path.replace('.', '-').replace('[', '-').replace(']', '')}"
         self._label = pn.pane.HTML("", sizing_mode="stretch_width", margin=(0, 0, 0, 4))
         self.field = pn.widgets.FloatInput(value=one.value, width=112, margin=(0, 2, 0, 2), css_classes=[f"{name}-field"])
-        self.slider = pn.widgets.DiscreteSlider(
-            options=one.grid(), value=one.value, sizing_mode="stretch_width", margin=(0, 4, 0, 4), show_value=False, css_classes=[name]
+        self._grid = one.grid()
+        # The slider is one of places in the grid, and stays the same slider when the grid changes.
+        self.slider = pn.widgets.IntSlider(
+            start=0,
+            end=max(1, len(self._grid) - 1),
+            value=self._grid.index(one.value),
+            disabled=len(self._grid) < 2,
+            sizing_mode="stretch_width",
+            margin=(0, 4, 0, 4),
+            show_value=False,
+            tooltips=False,
+            css_classes=[name],
         )
-        for inner in self.slider.select():
-            # Panel gathers the moves of a slider over 50 ms; the lanes of the explorer drop old requests anyway.
-            inner._debounce = GATHERED
+        # Panel gathers the moves of a slider over 50 ms; the lanes of the explorer drop old requests anyway.
+        self.slider._debounce = GATHERED
         self._ends = pn.pane.HTML("", sizing_mode="stretch_width", margin=(0, 4, 8, 4))
         self._describe()
         self.slider.param.watch(self._moved, "value")
         self.field.param.watch(self._typed, "value")
         head = pn.Row(self._label, self.field, sizing_mode="stretch_width")
         self.view = pn.Column(head, self.slider, self._ends, sizing_mode="stretch_width")
+
+    @property
+    def value(self) -> float:
+        """The number at which the slider stands."""
+        place: int = self.slider.value
+        return self._grid[place]
 
     def _describe(self) -> None:
         one = self.knob
@@ -71,10 +86,11 @@ class Slider:
 
     def _moved(self, event: Any) -> None:
         if not self._silent:
+            number = self._grid[event.new]
             self._silent = True
-            self.field.value = event.new
+            self.field.value = number
             self._silent = False
-            self._given(event.new)
+            self._given(number)
 
     def _typed(self, event: Any) -> None:
         if self._silent or event.new is None:
@@ -94,9 +110,10 @@ class Slider:
         if old.start <= one.value <= old.stop:
             one = replace(one, start=old.start, stop=old.stop, logarithmic=old.logarithmic)
         self.knob = one
-        if one.value not in self.slider.options:
-            self.slider.options = one.grid()
-        self.slider.value = one.value
+        if one.value not in self._grid:
+            self._grid = one.grid()
+        last = len(self._grid) - 1
+        self.slider.param.update(end=max(1, last), value=self._grid.index(one.value), disabled=last < 1)
         self.field.value = one.value
         self._describe()
         self._silent = False
@@ -184,7 +201,7 @@ class Controls:
         self._knobs = {it.path: it for it in knobs(study)}
         for path, slider in self.sliders.items():
             value = self._knobs[path].value
-            if slider.knob.value != value or slider.slider.value != value:
+            if slider.knob.value != value or slider.value != value:
                 slider.show(self._knobs[path])
         self._silent = True
         for choice in choices(study):
