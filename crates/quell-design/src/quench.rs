@@ -2,21 +2,18 @@
 //!
 //! The base response is followed from steady sliding without this dither up to a limit, by the continuation of `thresholds` and
 //! `design`. So a change below the least amplitude cannot be missed, and every further change above it is known too. The limit is
-//! twice the larger of two amplitudes: that at which the linear response to the dither alone is as fast as the surface (beyond it the contact
-//! reverses within every cycle, and the verdict hardly changes), and the last change by averaging. A normal dither may at most lift
-//! the load.
+//! twice the larger of two amplitudes: that at which the fast slip is as fast as the surface (beyond it the contact reverses within every
+//! cycle, and the verdict hardly changes), and the last change by averaging. The dither of a prescribed load may at most lift it.
 
-use quell_dynamics::motion::orbit::NoMotionOrbit;
-use quell_dynamics::orbit::NoOrbit;
-use quell_dynamics::orbit::threshold::{NoThresholds, ThresholdKind};
-use quell_linear::averaging::{Averaging, AveragingError, DitheredSystem, critical_amplitudes};
-use quell_linear::linear_cost::linear_cost;
-use quell_model::profile::{Profile, Wave};
-use quell_model::{Belt, Direction, Dither, System};
+use quell_dynamics::motion::orbit::{NoMotionOrbit, sliding_state};
+use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_linear::averaging::{AveragingError, DitheredSystem};
+use quell_model::System;
+use quell_model::profile::Wave;
+use quell_model::system::{Input, InputTarget};
 
 use crate::least_dither::{
-    AmplitudeBranch, QuietAmplitudes, QuietChange, amplitude_branch_of_belt,
-    amplitude_branch_of_system, averaged_quiet_of_belt, averaged_quiet_of_system,
+    AmplitudeBranch, QuietAmplitudes, QuietChange, amplitude_branch, averaged_quiet,
 };
 
 /// Least number of steps of the continuation up to the limit.
@@ -125,70 +122,20 @@ pub fn quench_kind(kind: ThresholdKind) -> usize {
     ThresholdKind::ALL.iter().position(|other| *other == kind).unwrap_or(0)
 }
 
-/// The quench amplitude of the first dither of a belt, whose own amplitude does not matter.
-///
-/// # Errors
-/// [`NoQuench`].
-pub fn quench_of_belt(belt: &Belt) -> Result<Quench, NoQuench> {
-    let first = belt.dithers().first().ok_or(NoQuench::NoDither)?;
-    if belt.belt_velocity() == 0.0 {
-        return Err(NoQuench::NoSteadySliding);
-    }
-    // The amplitude of the study must not make a belt invalid.
-    let belt = &belt.with_amplitude(0, 0.0).map_err(|_| NoQuench::NoBaseResponse)?;
-    let limit = limit_of_belt(belt, first)?;
-    let branch = if belt.has_contact_state() {
-        // The engine for belts has no place for the state.
-        let at = |amplitude: f64| {
-            let belt = belt.with_amplitude(0, amplitude).map_err(|why| why.to_string())?;
-            Ok(belt.system())
-        };
-        amplitude_branch_of_system(&at, (0.0, limit), STEPS).map_err(|why| no_branch(&why))?
-    } else {
-        amplitude_branch_of_belt(belt, (0.0, limit), STEPS).map_err(|why| match why {
-            NoThresholds::Start(NoOrbit::Stalled(_)) => NoQuench::Stalled,
-            _ => NoQuench::NoBaseResponse,
-        })?
-    };
-    let fast = belt.dithers().iter().all(|dither| dither.lowest_ratio() > 1.0);
-    let averaged = if fast {
-        averaged_quiet_of_belt(belt, (0.0, limit))
-    } else {
-        Err(AveragingError::NotFast { frequency_ratio: first.lowest_ratio() })
-    };
-    Ok(Quench { branch, averaged })
-}
-
-/// The largest amplitude of a belt's first dither that is followed.
-fn limit_of_belt(belt: &Belt, first: &Dither) -> Result<f64, NoQuench> {
-    if first.direction == Direction::Normal {
-        let free = belt.normal_load() - belt.total_amplitude(Direction::Normal);
-        let lift = -first.waveform.range().0;
-        return if lift > 0.0 { Ok(SHARE_OF_LOAD * free / lift) } else { Err(NoQuench::NoReach) };
-    }
-    let unit = Dither { amplitude: 1.0, ..first.clone() };
-    let response =
-        linear_cost(&unit, belt.damping_ratio()).map_err(|_| NoQuench::NoBaseResponse)?;
-    let corner = belt.belt_velocity().abs() / response.velocity;
-    let averaged = critical_amplitudes(belt, Averaging::FiniteR).unwrap_or_default();
-    let last = averaged.iter().map(|critical| critical.amplitude).fold(0.0, f64::max);
-    let limit = BEYOND * corner.max(last);
-    if limit.is_finite() { Ok(limit) } else { Err(NoQuench::NoReach) }
-}
-
 /// The quench amplitude of a dither of a system, whose own amplitude does not matter.
 ///
 /// # Errors
 /// [`NoQuench`].
-pub fn quench_of_system(system: &System, input: usize) -> Result<Quench, NoQuench> {
+pub fn quench(system: &System, input: usize) -> Result<Quench, NoQuench> {
     if system.inputs.get(input).is_none_or(|input| input.profile.waves().is_empty()) {
         return Err(NoQuench::NoDither);
     }
-    let limit = limit_of_system(system, input)?;
-    let at = |amplitude: f64| Ok(with_amplitude(system, input, amplitude));
-    let branch = amplitude_branch_of_system(&at, (0.0, limit), STEPS);
+    sliding_state(system).map_err(|_| NoQuench::NoSteadySliding)?;
+    let limit = limit(system, input)?;
+    let at = |amplitude: f64| Ok(system.with_amplitude(input, amplitude));
+    let branch = amplitude_branch(&at, (0.0, limit), STEPS);
     let branch = branch.map_err(|why| no_branch(&why))?;
-    let averaged = averaged_quiet_of_system(system, input, (0.0, limit));
+    let averaged = averaged_quiet(system, input, (0.0, limit));
     Ok(Quench { branch, averaged })
 }
 
@@ -201,7 +148,13 @@ fn no_branch(why: &NoMotionOrbit) -> NoQuench {
     }
 }
 
-fn limit_of_system(system: &System, input: usize) -> Result<f64, NoQuench> {
+/// The largest amplitude of a dither that is followed.
+fn limit(system: &System, input: usize) -> Result<f64, NoQuench> {
+    if let InputTarget::NormalLoad { contact, .. } = system.inputs[input].target
+        && system.contacts[contact].normal.is_none()
+    {
+        return limit_of_load(system, (input, contact));
+    }
     let no_average = |why: AveragingError| match why {
         AveragingError::NoSteadySliding(_) => NoQuench::NoSteadySliding,
         why => NoQuench::Averaging(why),
@@ -214,17 +167,16 @@ fn limit_of_system(system: &System, input: usize) -> Result<f64, NoQuench> {
     Ok(BEYOND * corner.max(last))
 }
 
-/// The system with another amplitude of one dither; the waves of a dither keep their shares.
-fn with_amplitude(system: &System, input: usize, amplitude: f64) -> System {
-    let mut system = system.clone();
-    let Some(dither) = system.inputs.get_mut(input) else { return system };
-    let waves = dither.profile.waves().to_vec();
-    let first = waves.first().map_or(0.0, |wave| wave.amplitude);
-    let scaled = |wave: &Wave| {
-        let share = if first == 0.0 { 1.0 } else { wave.amplitude / first };
-        Wave { amplitude: share * amplitude, ..wave.clone() }
+/// The amplitude of a dither that a prescribed load bears, where it and the others lift the load.
+fn limit_of_load(system: &System, (input, contact): (usize, usize)) -> Result<f64, NoQuench> {
+    let lift = |waves: &[Wave]| -> f64 {
+        waves.iter().map(|wave| -wave.amplitude * wave.waveform.range().0).sum()
     };
-    let still = dither.profile.without_waves();
-    dither.profile = waves.iter().map(scaled).fold(still, Profile::with);
-    system
+    let own = |other: &Input| matches!(other.target, InputTarget::NormalLoad { contact: of, .. } if of == contact);
+    let others =
+        system.inputs.iter().enumerate().filter(|(index, other)| *index != input && own(other));
+    let taken: f64 = others.map(|(_, other)| lift(other.profile.waves())).sum();
+    let one = lift(system.with_amplitude(input, 1.0).inputs[input].profile.waves());
+    let limit = SHARE_OF_LOAD * (system.contacts[contact].normal_load - taken) / one;
+    if one > 0.0 && limit > 0.0 { Ok(limit) } else { Err(NoQuench::NoReach) }
 }

@@ -4,7 +4,7 @@ use quell_design::atlas::{
     Atlas, AtlasChange, AtlasLaw, AtlasPoint, AtlasSurface, AtlasTable, ERROR_BANDS, RANGE,
     WAVEFORMS,
 };
-use quell_design::quench::quench_of_belt;
+use quell_design::quench::quench;
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use quell_numerics::random::SplitMix;
 
@@ -132,7 +132,7 @@ fn random_belts_within_the_stated_error() {
                     let fall = fall * (0.5 + random.share());
                     let belt = point.belt_with_fall(0.0, fall).expect("a belt");
                     let answer = Atlas::shipped().answer(&point).expect("an answer");
-                    let exact = quench_of_belt(&belt).expect("a base response").branch;
+                    let exact = quench(&belt.system(), 0).expect("a base response").branch;
                     // Beyond the grazing the continuation may lose a response that sticks and reverses.
                     let grazing = answer.grazing.0;
                     assert!(exact.end.is_none_or(|end| end > grazing), "{answer:?} {exact:?}");
@@ -206,7 +206,7 @@ fn groups_scale_out() {
     let [with_point, without_point] =
         [&with, &without].map(|belt| AtlasPoint::of_belt(belt).expect("inside"));
     assert!((with_point.relative_damping / without_point.relative_damping - 1.0).abs() < 1e-14);
-    let [one, other] = [&with, &without].map(|belt| quench_of_belt(belt).expect("a response"));
+    let [one, other] = [&with, &without].map(|belt| quench(&belt.system(), 0).expect("a response"));
     let [one, other] = [&one, &other].map(|found| found.branch.changes[0].amplitude);
     assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
 }

@@ -1,11 +1,9 @@
 //! Least dithers of belts against an independent program, and limits in closed form.
 
-use std::sync::Arc;
-
 use quell_design::actuator::{Actuator, ActuatorLimit, PiezoStack};
 use quell_design::least_dither::{
-    BeltPlant, DesignObjective, DesignProblem, DesignStart, Designed, LimitedQuantity, NoDesign,
-    OperatingPoint, Plant, covered, design,
+    DesignObjective, DesignProblem, DesignStart, Designed, LimitedQuantity, NoDesign,
+    OperatingPoint, Plant, SystemAtPoint, SystemPlant, covered, design,
 };
 use quell_design::tasks::InTurn;
 use quell_model::{Belt, Direction, Dither, Friction, InvalidValues, LawKind, Waveform};
@@ -14,7 +12,8 @@ fn law(kind: LawKind) -> Friction {
     kind.build(&[0.4, 0.2857, 0.2]).expect("a law")
 }
 
-fn plant(kind: LawKind, damping_ratio: f64, waveform: Waveform) -> BeltPlant<'static> {
+/// A belt at an operating point, its velocity, with an amplitude and, if they are chosen, a frequency ratio.
+fn belt(kind: LawKind, damping_ratio: f64, waveform: Waveform) -> Box<SystemAtPoint<'static>> {
     let dither = Dither {
         direction: Direction::Tangential,
         waveform,
@@ -24,17 +23,22 @@ fn plant(kind: LawKind, damping_ratio: f64, waveform: Waveform) -> BeltPlant<'st
         envelope: None,
     };
     let belt = Belt::new(damping_ratio, 1.0, 0.1, law(kind), vec![dither]).expect("a belt");
-    let at = move |at: OperatingPoint<'_>| {
-        let belt = belt.with_amplitude(0, 0.0)?.with_belt_velocity(at.point[0])?;
+    let at = move |at: OperatingPoint<'_>, amplitude: f64| {
+        let belt = belt.with_amplitude(0, amplitude)?.with_belt_velocity(at.point[0])?;
         at.others.iter().try_fold(belt, |belt, ratio| belt.with_frequency_ratio(0, *ratio))
     };
-    let at =
-        move |point: OperatingPoint<'_>| at(point).map_err(|why: InvalidValues| why.to_string());
-    BeltPlant { at: Arc::new(at), start: DesignStart::Local }
+    Box::new(move |point: OperatingPoint<'_>, amplitude: f64| {
+        let belt = at(point, amplitude).map_err(|why: InvalidValues| why.to_string())?;
+        Ok(belt.system())
+    })
+}
+
+fn plant<'a>(at: &'a SystemAtPoint<'a>) -> SystemPlant<'a> {
+    SystemPlant { at, input: 0, observe: &[1.0], start: DesignStart::Local }
 }
 
 fn problem<'a>(
-    plant: &'a BeltPlant<'static>,
+    plant: &'a SystemPlant<'a>,
     over: &'a [(f64, f64)],
     limits: &'a [(LimitedQuantity, f64)],
 ) -> DesignProblem<'a> {
@@ -70,7 +74,8 @@ fn least_amplitudes_over_speeds() {
             _ => Waveform::Square,
         };
         let over = [(number("from"), number("to"))];
-        let plant = plant(kind, number("damping_ratio"), waveform);
+        let belt = belt(kind, number("damping_ratio"), waveform);
+        let plant = plant(&belt);
         let found = design(problem(&plant, &over, &[])).answer.expect("feasible");
         let critical = &found.critical;
         // Grazings and multipliers of the oracle are exact to 1e-9; a tip is where two thresholds meet.
@@ -92,7 +97,8 @@ fn least_amplitudes_over_speeds() {
 
 #[test]
 fn a_stroke_limit_binds_the_frequency() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let plant = plant(&belt);
     let limits = [(LimitedQuantity::Stroke, 0.04)];
     let others = [(2.0, 20.0)];
     let over = [(0.05, 0.2)];
@@ -111,7 +117,8 @@ fn a_stroke_limit_binds_the_frequency() {
 /// K = 1 − R² + 2iζR, is F_b/2 on both sides.
 #[test]
 fn a_voltage_binds_the_frequency() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let plant = plant(&belt);
     let stack = PiezoStack {
         blocked_force: 3.0,
         stiffness: 20.0,
@@ -156,7 +163,8 @@ fn a_voltage_binds_the_frequency() {
 
 #[test]
 fn a_bounded_amplitude_covers_a_part_of_the_box() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let plant = plant(&belt);
     let over = [(0.02, 0.2)];
     let whole = DesignProblem { amplitude: (0.01, 1.0), ..problem(&plant, &over, &[]) };
     let Designed { answer, .. } = design(whole);
@@ -169,7 +177,8 @@ fn a_bounded_amplitude_covers_a_part_of_the_box() {
 
 #[test]
 fn a_loss_of_friction_is_judged_on_exact_responses() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let plant = plant(&belt);
     let over = [(0.145, 0.15)];
     let limits = [(LimitedQuantity::FrictionLoss, 0.25)];
     let found = design(problem(&plant, &over, &limits)).answer.expect("feasible");
@@ -196,7 +205,8 @@ fn a_loss_of_friction_is_judged_on_exact_responses() {
 /// program gives two digits of the exact losses.
 #[test]
 fn averaged_and_exact_losses_meet_at_high_frequency() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let plant = plant(&belt);
     let at = |ratio: f64| {
         let (point, others) = ([0.145], [ratio]);
         let amplitude = 1.0375 * 0.145 * (ratio * ratio - 1.0) / ratio;
@@ -214,7 +224,8 @@ fn averaged_and_exact_losses_meet_at_high_frequency() {
 
 #[test]
 fn nothing_is_needed_where_sliding_is_stable() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
+    let plant = plant(&belt);
     // Without dither sliding is stable from 0.2 √(1 − 0.01/0.857) = 0.1988 on.
     let over = [(0.2, 0.25)];
     let found = design(problem(&plant, &over, &[])).answer.expect("feasible");

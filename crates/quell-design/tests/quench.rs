@@ -1,7 +1,7 @@
 //! Exact quench amplitudes of belts and systems against an independent program, the continuation over other ranges, and limits.
 
-use quell_design::least_dither::amplitude_branch_of_belt;
-use quell_design::quench::{NoQuench, NotQuenched, quench_of_belt, quench_of_system};
+use quell_design::least_dither::amplitude_branch;
+use quell_design::quench::{NoQuench, NotQuenched, quench};
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 
@@ -33,7 +33,7 @@ fn quench_amplitudes_of_an_independent_program() {
             _ => Waveform::Square,
         };
         let belt = belt(kind, 0.005, number("belt_velocity"), waveform, number("frequency_ratio"));
-        let found = quench_of_belt(&belt).expect("a base response");
+        let found = quench(&belt.system(), 0).expect("a base response");
         let Some(expected) = case["D_period1_stable_from"].as_f64() else { continue };
         let least = found.least().unwrap_or_else(|why| panic!("{case} {why:?} {found:?}"));
         // The numbers of the reference have nine digits.
@@ -52,7 +52,7 @@ fn quiet_amplitudes_of_two_intervals() {
         (Waveform::Square, 3.295_664_191_249, 6.313_857_945_790),
     ] {
         let belt = belt(LawKind::Decreasing, 0.005, 1.0, waveform, 10.0);
-        let found = quench_of_belt(&belt).expect("a base response");
+        let found = quench(&belt.system(), 0).expect("a base response");
         assert_eq!(found.least(), Err(NotQuenched::QuietWithout));
         assert!((found.lost().expect("lost") - lost).abs() < 1e-10, "{found:?}");
         assert!((found.last().expect("quiet again") - last).abs() < 1e-10, "{found:?}");
@@ -65,7 +65,7 @@ fn quiet_amplitudes_of_two_intervals() {
 #[test]
 fn a_neimark_sacker_bifurcation_can_quench() {
     let belt = belt(LawKind::Stribeck, 0.05, 0.17, Waveform::Sine, 20.0);
-    let found = quench_of_belt(&belt).expect("a base response");
+    let found = quench(&belt.system(), 0).expect("a base response");
     let least = found.least().expect("a quench amplitude");
     assert_eq!(least.kind, ThresholdKind::NeimarkSacker);
     assert_eq!((found.lost(), found.last()), (None, Some(least.amplitude)));
@@ -77,28 +77,16 @@ fn a_neimark_sacker_bifurcation_can_quench() {
 #[test]
 fn other_ranges_and_the_amplitude_of_the_study_change_nothing() {
     let belt = belt(LawKind::Decreasing, 0.02, 0.3, Waveform::Triangle, 7.0);
-    let found = quench_of_belt(&belt).expect("a base response");
+    let found = quench(&belt.system(), 0).expect("a base response");
     let least = found.least().expect("a quench amplitude").amplitude;
-    let weak = quench_of_belt(&belt.with_amplitude(0, 0.1).expect("a belt")).expect("a response");
+    let weak = quench(&belt.system().with_amplitude(0, 0.1), 0).expect("a response");
     assert_eq!(weak.branch, found.branch);
     for (to, steps) in [(1.3 * least, 5), (3.0 * least, 60)] {
-        let other = belt.with_amplitude(0, 0.0).expect("a belt");
-        let other = amplitude_branch_of_belt(&other, (0.0, to), steps).expect("a branch");
+        let system = belt.system();
+        let at = |amplitude: f64| Ok(system.with_amplitude(0, amplitude));
+        let other = amplitude_branch(&at, (0.0, to), steps).expect("a branch");
         let first = other.changes[0];
         assert!((first.amplitude / least - 1.0).abs() < 1e-9, "{first:?} {least}");
-    }
-}
-
-/// The belt as a system has the same quench amplitude.
-#[test]
-fn a_belt_as_a_system() {
-    for (velocity, ratio) in [(0.1, 10.0), (0.15, 6.0)] {
-        let belt = belt(LawKind::Stribeck, 0.01, velocity, Waveform::Sine, ratio);
-        let of_belt = quench_of_belt(&belt).expect("a base response");
-        let of_system = quench_of_system(&belt.system(), 0).expect("a base response");
-        let (one, other) = (of_belt.least().expect("quench"), of_system.least().expect("quench"));
-        assert!((one.amplitude / other.amplitude - 1.0).abs() < 1e-8, "{one:?} {other:?}");
-        assert_eq!(one.kind, other.kind);
     }
 }
 
@@ -106,12 +94,13 @@ fn a_belt_as_a_system() {
 #[test]
 fn reasons() {
     let sliding = belt(LawKind::Stribeck, 0.005, 0.3, Waveform::Sine, 10.0);
-    let found = quench_of_belt(&sliding).expect("a base response");
+    let found = quench(&sliding.system(), 0).expect("a base response");
     assert_eq!(found.least(), Err(NotQuenched::QuietWithout));
     assert_eq!((found.lost(), found.last()), (None, Some(0.0)));
     assert_eq!(found.averaged().expect("averaging"), Err(NotQuenched::QuietWithout));
-    let without = quench_of_belt(&sliding.undithered());
+    let without = quench(&sliding.undithered().system(), 0);
     assert!(matches!(without, Err(NoQuench::NoDither)), "{without:?}");
     let at_rest = sliding.with_belt_velocity(0.0).expect("a belt");
-    assert!(matches!(quench_of_belt(&at_rest), Err(NoQuench::NoSteadySliding)));
+    let found = quench(&at_rest.system(), 0);
+    assert!(matches!(found, Err(NoQuench::NoSteadySliding)), "{found:?}");
 }

@@ -132,7 +132,7 @@ fn seen(system: &System, until: f64) -> Seen {
     let from = MotionStart { time: 0.0, state };
     let mut meter = ContactMeter::new(1);
     let mut samples = MotionSampler::new(0.0, until / 97.0, 97);
-    let mut variation = MotionVariation::new(&motion);
+    let mut variation = MotionVariation::new(&motion).expect("equations");
     let observer = &mut (&mut meter, (&mut samples, &mut variation));
     let end = motion.run(&from, until, MOTION_TOLERANCE, observer).expect("a run");
     assert!(!variation.has_failed);

@@ -76,7 +76,7 @@ fn bouncing((law, values): (LawKind, &[f64]), stiffness: Option<f64>) -> System 
 /// The derivative of the state after a time by the state, and what the contact does at both ends.
 fn variation(system: &System, start: &MotionStart, until: f64) -> (Matrix, Vec<EventKind>) {
     let motion = Motion::new(system).expect("a motion");
-    let mut variation = MotionVariation::new(&motion);
+    let mut variation = MotionVariation::new(&motion).expect("equations");
     motion.run(start, until, MOTION_TOLERANCE, &mut variation).expect("an end");
     assert!(!variation.has_failed && !variation.is_one_sided, "{:?}", system.contacts);
     (variation.matrix(), variation.events.iter().map(|event| event.kind).collect())

@@ -8,7 +8,7 @@ use quell::run::probability::ProbabilityRequest;
 use quell::run::system::tracked::TrackRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
-use quell_design::quench::quench_of_belt;
+use quell_design::quench::quench;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -74,7 +74,7 @@ fn designs_waveforms_and_thresholds_of_a_slider_agree() {
     // The quantity of maps.
     let belt = study.belt().expect("a belt");
     let scales = belt.scales().expect("in SI");
-    let quench = quench_of_belt(belt.belt()).expect("a branch");
+    let quench = quench(&belt.belt().system(), 0).expect("a branch");
     let least = quench.least().expect("a quench").amplitude * scales.per_unit(Quantity::Force);
     assert!((least / values[0] - 1.0).abs() < 1e-6, "{least}");
 }

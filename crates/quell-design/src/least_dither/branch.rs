@@ -2,7 +2,7 @@
 
 use quell_dynamics::motion::orbit::MotionThresholds;
 use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::{BranchEnding, Local, ThresholdKind};
+use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
 
 use super::quiet::QuietAmplitudes;
 
@@ -36,16 +36,7 @@ pub struct AmplitudeBranch {
 }
 
 impl AmplitudeBranch {
-    pub(super) fn of_belt(range: (f64, f64), found: &Local) -> Self {
-        let thresholds = found.thresholds.iter().map(|threshold| {
-            let sides = [threshold.was, threshold.becomes];
-            (threshold.value, threshold.error, threshold.kind, sides)
-        });
-        let radius = found.branch.first().map(|response| response.radius);
-        Self::of(range, radius, thresholds, found.ending)
-    }
-
-    pub(super) fn of_motion(range: (f64, f64), found: &MotionThresholds) -> Self {
+    pub(super) fn new(range: (f64, f64), found: &MotionThresholds) -> Self {
         let thresholds = found.thresholds.iter().map(|threshold| {
             let sides = [threshold.was, threshold.becomes];
             (threshold.value, threshold.error, threshold.kind, sides)
@@ -94,9 +85,14 @@ impl AmplitudeBranch {
 
     /// The amplitudes that are quiet: beyond the end there is no base response that could be.
     pub fn quiet(&self) -> QuietAmplitudes {
+        self.quiet_within(self.range)
+    }
+
+    /// Those in a part of the range that begins with it.
+    pub(super) fn quiet_within(&self, range: (f64, f64)) -> QuietAmplitudes {
         let changes = self.changes.iter().map(|change| (change.amplitude, change.becomes_quiet));
         let end = self.end.map(|at| (at, false));
-        QuietAmplitudes::of_changes(self.range, self.quiet_at_first, changes.chain(end))
+        QuietAmplitudes::of_changes(range, self.quiet_at_first, changes.chain(end))
     }
 }
 

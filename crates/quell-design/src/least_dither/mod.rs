@@ -7,7 +7,6 @@
 //! verified by exact periodic responses at points of the box (`verified`). What the structure is stays behind [`Plant`]. A structure whose
 //! loud points form narrow tongues names the points that a grid would miss, and searches between points before an answer is accepted.
 
-mod belt;
 mod between_points;
 mod branch;
 mod confident;
@@ -28,7 +27,6 @@ mod system;
 mod verified;
 mod worst_point;
 
-pub use belt::{BeltAtPoint, BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
 pub use branch::{AmplitudeBranch, QuietChange};
 pub use confident::{LeastOfSample, LeastQuantile, SampledLeast, SampledQuiet};
 pub use covered::covered;
@@ -42,9 +40,7 @@ pub use scaled::ScaledPlant;
 pub use schedule::ScheduledDither;
 pub use search::{DesignBasin, DesignPoint};
 pub use sensitivity::{LeastAmplitude, LeastAmplitudeSensitivity, SystemOfNumbers};
-pub use system::{
-    SystemAtPoint, SystemPlant, amplitude_branch_of_system, averaged_quiet_of_system,
-};
+pub use system::{SystemAtPoint, SystemPlant, amplitude_branch, averaged_quiet};
 pub use verified::VerifiedPoint;
 pub use worst_point::NoLeast;
 

@@ -25,6 +25,9 @@ use crate::actuator::{Actuator, ActuatorDemand};
 /// Steps of the continuation over a range of amplitudes.
 const STEPS: u32 = 8;
 
+/// The end to which the base response is followed, over that of the range: what is quiet from just below the end is seen beyond it.
+const BEYOND: f64 = 1.0 + 1e-4;
+
 /// Share of the range between two amplitudes at which runs from a start are tried.
 const TRIED_WITHIN: f64 = 1.0 / 16.0;
 
@@ -65,6 +68,20 @@ impl SystemPlant<'_> {
         wave.cloned().ok_or_else(|| "the dither that is designed does not act".to_owned())
     }
 
+    /// The system at an operating point over the amplitude, read once where the largest amplitude is valid: then all are.
+    fn over_amplitude<'s>(
+        &'s self,
+        at: OperatingPoint<'s>,
+        largest: f64,
+    ) -> Box<dyn Fn(f64) -> Result<System, String> + Sync + 's> {
+        match (self.at)(at, largest) {
+            Ok(system) if largest > 0.0 => {
+                Box::new(move |amplitude| Ok(system.with_amplitude(self.input, amplitude)))
+            }
+            _ => Box::new(move |amplitude| (self.at)(at, amplitude)),
+        }
+    }
+
     /// An answer about the point on which the dither acts.
     fn about_point<T>(
         &self,
@@ -85,9 +102,11 @@ impl SystemPlant<'_> {
     fn about_runs<T>(
         &self,
         at: OperatingPoint<'_>,
+        largest: f64,
         answer: impl FnOnce(&VariedRun<'_>) -> Result<T, String>,
     ) -> Result<Option<T>, String> {
-        let system = |values: &[f64]| (self.at)(at, values[0]);
+        let over_amplitude = self.over_amplitude(at, largest);
+        let system = |values: &[f64]| over_amplitude(values[0]);
         let without = system(&[0.0])?.undithered();
         let state = match self.start {
             DesignStart::Squeal => match squealing_state(&without) {
@@ -111,7 +130,7 @@ impl SystemPlant<'_> {
         (from, to): (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
         let stable = self.by_multipliers(at, (from, to))?;
-        let found = self.about_runs(at, |run| {
+        let found = self.about_runs(at, to, |run| {
             let within = TRIED_WITHIN * (to - from);
             let each = stable.intervals().iter().map(|interval| in_step(run, *interval, within));
             Ok(each.collect::<Result<Vec<_>, String>>()?.concat())
@@ -125,8 +144,9 @@ impl SystemPlant<'_> {
         at: OperatingPoint<'_>,
         range: (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
-        let found = amplitude_branch_of_system(&|value| (self.at)(at, value), range, STEPS);
-        Ok(found.map_err(in_words)?.quiet())
+        let system = self.over_amplitude(at, range.1);
+        let found = amplitude_branch(&system, (range.0, range.1 * BEYOND), STEPS);
+        Ok(found.map_err(in_words)?.quiet_within(range))
     }
 
     /// The base response under an amplitude.
@@ -193,20 +213,20 @@ pub(super) fn quiet_changes(
 ///
 /// # Errors
 /// [`NoMotionOrbit`] if there is no base response at the least amplitude.
-pub fn amplitude_branch_of_system(
+pub fn amplitude_branch(
     at: &dyn Fn(f64) -> Result<System, String>,
     range: (f64, f64),
     steps: u32,
 ) -> Result<AmplitudeBranch, NoMotionOrbit> {
     let found = motion_thresholds(&|values: &[f64]| at(values[0]), range, steps, None)?;
-    Ok(AmplitudeBranch::of_motion(range, &found))
+    Ok(AmplitudeBranch::new(range, &found))
 }
 
 /// The amplitudes of a dither of a system that are quiet by averaging, in a range.
 ///
 /// # Errors
 /// [`AveragingError`].
-pub fn averaged_quiet_of_system(
+pub fn averaged_quiet(
     system: &System,
     input: usize,
     range: (f64, f64),
@@ -243,7 +263,7 @@ impl Plant for SystemPlant<'_> {
         range: (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
         let system = (self.at)(at, range.1)?;
-        averaged_quiet_of_system(&system, self.input, range).map_err(in_words)
+        averaged_quiet(&system, self.input, range).map_err(in_words)
     }
 
     fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
@@ -269,7 +289,7 @@ impl Plant for SystemPlant<'_> {
                     RunOutcome::Unknown(why) => Err(why),
                     known => Ok(known.is_quiet() == Some(true)),
                 };
-                stable && self.about_runs(at, outcome)?.unwrap_or(true)
+                stable && self.about_runs(at, amplitude, outcome)?.unwrap_or(true)
             }
         };
         Ok(ExactVerdict { quiet, multiplier: orbit.radius(), growth_rate: None })

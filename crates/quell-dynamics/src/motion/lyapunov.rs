@@ -300,7 +300,7 @@ impl Motion<'_> {
     ) -> Result<LyapunovExponents, NoExponents> {
         let size = self.size();
         assert!(count <= size, "number of exponents");
-        let mut variation = MotionVariation::new(self);
+        let mut variation = MotionVariation::new(self).map_err(|_| NoExponents::NoVariation)?;
         variation.columns_mut().truncate(count * size);
         let begin = start.time + settle;
         let mut growth = GrowthMeter {

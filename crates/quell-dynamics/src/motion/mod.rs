@@ -66,6 +66,8 @@ mod stuck;
 mod transitions;
 mod variation;
 
+use std::sync::OnceLock;
+
 use quell_model::{OneMass, Profile, System};
 
 use engine::MotionRun;
@@ -95,9 +97,16 @@ pub use variation::MotionVariation;
 #[derive(Clone, Debug)]
 pub struct Motion<'s> {
     system: &'s System,
-    equations: MotionEquations,
-    /// The belt that the system is, if it is one.
-    one_mass: Option<OneMass>,
+    engine: MotionEngine,
+}
+
+/// What runs a system.
+#[derive(Clone, Debug)]
+enum MotionEngine {
+    /// The engine of one mass runs the belt that the system is; the equations are made where they are asked for.
+    OneMass(Box<OneMass>, Box<OnceLock<Result<MotionEquations, Immobile>>>),
+    /// The engine for any system.
+    General(Box<MotionEquations>),
 }
 
 /// Whether a surface has no velocity about which it moves; of one over knots, whether it ever stands still.
@@ -115,6 +124,10 @@ impl<'s> Motion<'s> {
     /// # Errors
     /// [`Immobile`] with the contact and the reason.
     pub fn new(system: &'s System) -> Result<Self, Immobile> {
+        if let Some(mass) = system.one_mass() {
+            let engine = MotionEngine::OneMass(Box::new(mass), Box::default());
+            return Ok(Self { system, engine });
+        }
         let equations = MotionEquations::new(system)?;
         let name = |contact: usize| system.contacts[contact].name.clone();
         let mut able = Vec::new();
@@ -138,7 +151,7 @@ impl<'s> Motion<'s> {
                 contacts: set.into_iter().map(|place| name(able[place])).collect(),
             });
         }
-        Ok(Self { system, equations, one_mass: system.one_mass() })
+        Ok(Self { system, engine: MotionEngine::General(Box::new(equations)) })
     }
 
     /// The system.
@@ -149,17 +162,24 @@ impl<'s> Motion<'s> {
     /// Length of the state: that of the structure, and after it one number for each contact with a state of its own, in the order of
     /// the contacts ([`Contact::has_state`](quell_model::Contact::has_state)).
     pub fn size(&self) -> usize {
-        self.equations.size
+        match &self.engine {
+            MotionEngine::OneMass(..) => one_mass::SIZE,
+            MotionEngine::General(equations) => equations.size,
+        }
     }
 
     /// Length of the state of the structure.
     pub fn structure_size(&self) -> usize {
-        self.equations.structure_size
+        match &self.engine {
+            MotionEngine::OneMass(..) => one_mass::SIZE,
+            MotionEngine::General(equations) => equations.structure_size,
+        }
     }
 
     /// Place of a contact's own number in the state; `None` if it has none.
     pub fn own_place(&self, contact: usize) -> Option<usize> {
-        self.equations.contacts[contact].own.map(|own| own.place)
+        let MotionEngine::General(equations) = &self.engine else { return None };
+        equations.contacts[contact].own.map(|own| own.place)
     }
 
     /// The state of the structure with the contacts' own numbers at zero, as a study begins: sliders and bristles without load.
@@ -175,18 +195,38 @@ impl<'s> Motion<'s> {
 
     /// Time scale of the system: the reciprocal of its fastest rate.
     pub fn time_scale(&self) -> f64 {
-        1.0 / self.equations.rates.of_all
+        let own = self.one_mass().map_or(1.0, OneMass::rate);
+        1.0 / self.equations().map_or(own, |equations| equations.rates.of_all)
+    }
+
+    /// The equations of the engine for any system.
+    fn equations(&self) -> Result<&MotionEquations, Immobile> {
+        match &self.engine {
+            MotionEngine::OneMass(_, equations) => equations
+                .get_or_init(|| MotionEquations::new(self.system))
+                .as_ref()
+                .map_err(Clone::clone),
+            MotionEngine::General(equations) => Ok(equations),
+        }
+    }
+
+    /// The belt that the system is; `None` if it is none.
+    fn one_mass(&self) -> Option<&OneMass> {
+        match &self.engine {
+            MotionEngine::OneMass(mass, _) => Some(mass),
+            MotionEngine::General(_) => None,
+        }
     }
 
     /// The bound on the last terms of a step for runs from which no periodic motion is computed: [`MOTION_TOLERANCE`], of a system of one
     /// mass that of a belt ([`DEFAULT_TOLERANCE`]).
     pub fn run_tolerance(&self) -> f64 {
-        if self.one_mass.is_some() { one_mass::RUN_TOLERANCE } else { MOTION_TOLERANCE }
+        if self.one_mass().is_some() { one_mass::RUN_TOLERANCE } else { MOTION_TOLERANCE }
     }
 
     /// What [`Motion::run_tolerance`] bounds: the last terms over the numbers of the state, or of one mass over the load.
     pub fn bound_of_runs(&self) -> f64 {
-        if self.one_mass.is_some() { DEFAULT_TOLERANCE } else { MOTION_TOLERANCE }
+        if self.one_mass().is_some() { DEFAULT_TOLERANCE } else { MOTION_TOLERANCE }
     }
 
     /// Integrates from `start` to t = `until` and passes every segment and event to `observer`.
@@ -208,11 +248,13 @@ impl<'s> Motion<'s> {
         tolerance: f64,
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {
-        if let Some(mass) = &self.one_mass {
-            let run = PlannedMass { mass, start: start.clone(), until, observer };
-            return run_mass(run, None, tolerance);
-        }
-        let parts = (self.system, &self.equations);
+        let parts = match &self.engine {
+            MotionEngine::OneMass(mass, _) => {
+                let run = PlannedMass { mass, start: start.clone(), until, observer };
+                return run_mass(run, None, tolerance);
+            }
+            MotionEngine::General(equations) => (self.system, equations.as_ref()),
+        };
         if start.state.len() == self.size() {
             return MotionRun::new(parts, start, until, tolerance, observer).run();
         }
@@ -226,7 +268,8 @@ impl<'s> Motion<'s> {
         if !self.system.contacts.iter().any(|contact| contact.tangential_stiffness.is_some()) {
             return None;
         }
-        let parts = (self.system, &self.equations);
+        let MotionEngine::General(equations) = &self.engine else { return None };
+        let parts = (self.system, equations.as_ref());
         let start = MotionStart { time: 0.0, state: state.to_vec() };
         MotionRun::new(parts, &start, f64::INFINITY, MOTION_TOLERANCE, &mut ()).at_sliding_levels()
     }
@@ -239,7 +282,7 @@ impl<'s> Motion<'s> {
         sign: Option<i8>,
         tolerance: f64,
     ) -> Option<Result<MassShot, MotionStopped>> {
-        let mass = self.one_mass.as_ref()?;
+        let mass = self.one_mass()?;
         let start = MotionStart { time: 0.0, state: state.to_vec() };
         Some(shoot_mass(mass, (&start, until), sign, tolerance))
     }
@@ -253,12 +296,14 @@ impl<'s> Motion<'s> {
         until: f64,
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {
-        if let Some(mass) = &self.one_mass {
-            let sign = phases.first().copied().flatten().map(ContactPhase::slip_sign);
-            let run = PlannedMass { mass, start: start.clone(), until, observer };
-            return run_mass(run, sign, MOTION_TOLERANCE);
-        }
-        let parts = (self.system, &self.equations);
+        let parts = match &self.engine {
+            MotionEngine::OneMass(mass, _) => {
+                let sign = phases.first().copied().flatten().map(ContactPhase::slip_sign);
+                let run = PlannedMass { mass, start: start.clone(), until, observer };
+                return run_mass(run, sign, MOTION_TOLERANCE);
+            }
+            MotionEngine::General(equations) => (self.system, equations.as_ref()),
+        };
         let run = MotionRun::new(parts, start, until, MOTION_TOLERANCE, observer);
         run.keeping(phases).run()
     }

@@ -25,7 +25,7 @@ use crate::simulation::{
 };
 
 /// Length of the state.
-const SIZE: usize = 2;
+pub(super) const SIZE: usize = 2;
 
 /// Slip velocities below this multiple of their rounding are zero at the start of a run, as for systems in general: a state of stick that
 /// a search has computed comes to rest. With a much larger value a start that slips would stick.

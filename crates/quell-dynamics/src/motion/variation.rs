@@ -38,6 +38,7 @@ use super::observer::{
 use super::own_state::{OwnState, OwnStateKind, law_of};
 use super::phase::{ContactNow, ContactPhase, OwnNow};
 use super::rows::StateRow;
+use super::stopped::Immobile;
 use super::stuck::{StuckForces, independent};
 use crate::simulation::ORDER;
 
@@ -99,10 +100,13 @@ struct PendingJump {
 
 impl<'a> MotionVariation<'a> {
     /// From the identity.
-    pub fn new(motion: &'a Motion<'a>) -> Self {
-        let (system, equations) = (motion.system, &motion.equations);
+    ///
+    /// # Errors
+    /// [`Immobile`] where the system has no equations.
+    pub fn new(motion: &'a Motion<'a>) -> Result<Self, Immobile> {
+        let (system, equations) = (motion.system, motion.equations()?);
         let size = equations.size;
-        Self {
+        Ok(Self {
             laws: system.contacts.iter().map(|c| law_of(&c.friction)).collect(),
             columns: Matrix::identity(size).as_slice().to_vec(),
             events: Vec::new(),
@@ -120,7 +124,7 @@ impl<'a> MotionVariation<'a> {
             is_first: true,
             system,
             equations,
-        }
+        })
     }
 
     /// The changes, column by column: any number of them.

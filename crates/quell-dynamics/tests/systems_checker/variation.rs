@@ -36,7 +36,7 @@ fn compare(seed: u64, met: &mut Met) -> Option<Result<(), String>> {
     let (system, start) = random_system(seed);
     let motion = Motion::new(&system).ok()?;
     let from = MotionStart { time: 0.0, state: start.clone() };
-    let mut variation = MotionVariation::new(&motion);
+    let mut variation = MotionVariation::new(&motion).ok()?;
     motion.run(&from, UNTIL, MOTION_TOLERANCE, &mut variation).ok()?;
     let direction: Vec<f64> =
         (0..start.len()).map(|i| ((7 * i + 3) as f64 * 1.7 + seed as f64).sin()).collect();

@@ -176,8 +176,9 @@ impl GroupParts {
 /// Fast motion at one contact.
 #[derive(Debug)]
 pub(super) struct ContactMotion {
-    /// Slip with the load that goes with it, and slip alone.
-    pub(super) whole: FastMotion,
+    /// Slip with the load that goes with it; `None` under a steady load.
+    loaded: Option<FastMotion>,
+    /// Slip alone.
     pub(super) slip: FastMotion,
     /// Sum of the amplitudes of the load of periodic dithers.
     periodic_load: f64,
@@ -198,19 +199,18 @@ impl ContactMotion {
         acting: impl Iterator<Item = ActingWave<'a>>,
         (contact, normal_load): (usize, f64),
     ) -> Result<Self, AveragingError> {
-        let (borne, imposed): (Vec<ActingWave>, Vec<ActingWave>) =
+        let (borne, mut acting): (Vec<ActingWave>, Vec<ActingWave>) =
             acting.filter(|wave| wave.amplitude != 0.0).partition(|wave| wave.borne_by.is_some());
         let mut drives: BTreeMap<usize, DrivingFriction> = BTreeMap::new();
         for by in borne.iter().filter_map(|wave| wave.borne_by) {
             if let Entry::Vacant(vacant) = drives.entry(by) {
-                vacant.insert(DrivingFriction::new(&system.contacts[by], (by, &imposed))?);
+                vacant.insert(DrivingFriction::new(&system.contacts[by], (by, &acting))?);
             }
         }
-        let driven = borne.into_iter().map(|wave| match wave.borne_by {
+        acting.extend(borne.into_iter().map(|wave| match wave.borne_by {
             Some(by) => ActingWave { share: drives[&by].share, ..wave },
             None => wave,
-        });
-        let acting: Vec<ActingWave> = imposed.iter().copied().chain(driven).collect();
+        }));
         let distortion = drives.get(&contact).map_or(0.0, |drive| drive.distortion);
         Ok(Self::new(contact, &acting, normal_load, distortion))
     }
@@ -237,14 +237,29 @@ impl ContactMotion {
         let peaks = loads.map(|term| term.amplitude.abs() * term.wave.peak());
         let periodic_load = normal_load * peaks.sum::<f64>();
         let load_amplitude = periodic_load + REACH * noise.load.sqrt();
-        let bare = groups
-            .iter()
-            .map(|group| PeriodicMotion { load: Vec::new(), ..group.clone() })
-            .collect();
-        let [whole, slip] =
-            [groups, bare].map(|groups| FastMotion::new(groups).with_noise(noise.slip.sqrt()));
+        let whole = FastMotion::new(groups).with_noise(noise.slip.sqrt());
+        let (slip, loaded) =
+            if whole.has_load() { (whole.without_load(), Some(whole)) } else { (whole, None) };
         let covariance = noise.covariance;
-        Self { whole, slip, periodic_load, load_amplitude, covariance, normal_load }
+        Self { loaded, slip, periodic_load, load_amplitude, covariance, normal_load }
+    }
+
+    /// The motion under inputs of that many times the amplitude.
+    pub(super) fn times(&self, factor: f64) -> Self {
+        let size = factor.abs();
+        Self {
+            loaded: self.loaded.as_ref().map(|motion| motion.times(factor)),
+            slip: self.slip.times(factor),
+            periodic_load: size * self.periodic_load,
+            load_amplitude: size * self.load_amplitude,
+            covariance: factor * factor * self.covariance,
+            normal_load: self.normal_load,
+        }
+    }
+
+    /// Slip with the load that goes with it, and slip alone.
+    pub(super) fn into_motions(self) -> [FastMotion; 2] {
+        [self.loaded.unwrap_or_else(|| self.slip.clone()), self.slip]
     }
 
     /// Whether the contact has fast slip.
@@ -270,9 +285,8 @@ impl ContactMotion {
             one_sided: mean.side == SlopeSide::Outer,
             ..FrictionLine::NONE
         };
-        if self.periodic_load > 0.0 {
-            let (level, slope) =
-                of_fluctuating_load(&contact.friction, (&self.whole, &mean), velocity)?;
+        if let Some(loaded) = self.loaded.as_ref().filter(|_| self.periodic_load > 0.0) {
+            let (level, slope) = of_fluctuating_load(&contact.friction, (loaded, &mean), velocity)?;
             line.constant = self.normal_load * level;
             line.slope_constant = self.normal_load * slope;
         }

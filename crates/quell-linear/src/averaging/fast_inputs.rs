@@ -23,8 +23,12 @@ use crate::steady::{FrictionLine, SteadyContact};
 const BELOW: f64 = 1e3;
 /// … up to the largest corner times this. Far beyond a corner mean friction falls like the inverse of the amplitude.
 const BEYOND: f64 = 30.0;
-/// Ratio of neighbouring amplitudes of the search.
+/// Ratio of neighbouring amplitudes of the search …
 const STEP: f64 = 1.05;
+/// … and below the smallest corner divided by [`SMALL`], where mean friction changes like the square of the amplitude.
+const SMALL_STEP: f64 = 1.3;
+/// See [`SMALL_STEP`].
+const SMALL: f64 = 20.0;
 /// Amplitudes on each side of a corner, each at half the distance of the last.
 const AROUND: i32 = 14;
 
@@ -116,6 +120,29 @@ impl FastInputs {
             .collect()
     }
 
+    /// Mean friction of a contact over the amplitude of one input. The fast motion is that of a unit amplitude times the amplitude where
+    /// no other input acts.
+    ///
+    /// # Errors
+    /// [`AveragingError`] if the fast motion has no value; so the function, if a mean has none.
+    pub(super) fn line_over<'a>(
+        &'a self,
+        system: &'a System,
+        (contact, input): (usize, usize),
+    ) -> Result<impl Fn(f64) -> Result<FrictionLine, AveragingError> + 'a, AveragingError> {
+        let at = move |amplitude: f64| self.motion(system, contact, Some((input, amplitude)));
+        let alone =
+            |response: &WaveResponse| response.input == input || response.wave.amplitude == 0.0;
+        let unit = if self.waves.iter().all(alone) { Some(at(1.0)?) } else { None };
+        Ok(move |amplitude: f64| {
+            let motion = match &unit {
+                Some(unit) => unit.times(amplitude),
+                None => at(amplitude)?,
+            };
+            motion.line(&system.contacts[contact])
+        })
+    }
+
     /// What the dither does to every contact, in a steady sliding that was found with [`FastInputs::lines`].
     ///
     /// # Errors
@@ -155,10 +182,10 @@ impl FastInputs {
         (contact, normal_load): (usize, f64),
         changed: Option<(usize, f64)>,
     ) -> Result<AveragedLaw, AveragingError> {
-        let ContactMotion { whole, slip, covariance, .. } =
-            self.motion_under(system, (contact, normal_load), changed)?;
-        let covariance = covariance / normal_load;
-        Ok(AveragedLaw::new(&system.contacts[contact].friction, [whole, slip], covariance))
+        let motion = self.motion_under(system, (contact, normal_load), changed)?;
+        let covariance = motion.covariance / normal_load;
+        let law = &system.contacts[contact].friction;
+        Ok(AveragedLaw::new(law, motion.into_motions(), covariance))
     }
 
     /// How far the fast slip exceeds the velocity of the surface, against it; negative while the contact slips in one direction.
@@ -213,7 +240,7 @@ impl FastInputs {
         let mut points = vec![0.0];
         while amplitude < end {
             points.push(amplitude);
-            amplitude *= STEP;
+            amplitude *= if amplitude < least / SMALL { SMALL_STEP } else { STEP };
         }
         points.push(end);
         for corner in corners {

@@ -42,6 +42,23 @@ impl FastMotion {
         Self { noise: deviation, ..self }
     }
 
+    /// Whether the load of some group fluctuates.
+    pub(super) fn has_load(&self) -> bool {
+        self.groups.iter().any(|group| !group.load.is_empty())
+    }
+
+    /// The motion under dithers of that many times the amplitude.
+    pub(super) fn times(&self, factor: f64) -> Self {
+        let groups = self.groups.iter().map(|group| group.times(factor)).collect();
+        Self::new(groups).with_noise(factor.abs() * self.noise)
+    }
+
+    /// The same slip under a steady load.
+    pub(super) fn without_load(&self) -> Self {
+        let groups = self.groups.iter().map(PeriodicMotion::without_load);
+        Self { groups: groups.collect(), noise: self.noise }
+    }
+
     /// Standard deviation of the Gaussian velocity; 0 without noise. With noise the average has neither corners nor jumps.
     #[must_use]
     pub fn noise(&self) -> f64 {

@@ -99,6 +99,23 @@ pub struct PeriodicMotion {
 }
 
 impl PeriodicMotion {
+    /// The motion under dithers of that many times the amplitude.
+    pub(super) fn times(&self, factor: f64) -> Self {
+        let mut found = self.clone();
+        let slips = found.tangential.iter_mut().chain(&mut found.normal);
+        let amplitudes = slips.map(|term| &mut term.amplitude);
+        let loads = found.load.iter_mut().map(|term| &mut term.amplitude);
+        amplitudes.chain(loads).for_each(|amplitude| *amplitude *= factor);
+        found
+    }
+
+    /// The same slip under a steady load.
+    pub(super) fn without_load(&self) -> Self {
+        let Self { tangential, normal, distortion, .. } = self;
+        let (tangential, normal) = (tangential.clone(), normal.clone());
+        Self { tangential, normal, distortion: *distortion, load: Vec::new(), load_is_slope: false }
+    }
+
     /// The wave and its amplitude where the motion reduces to a single undistorted wave that is known from a quarter.
     pub(super) fn single_term(&self) -> Option<(&FastWave, f64)> {
         let only = match (self.tangential.as_slice(), self.normal.as_slice()) {

@@ -102,8 +102,9 @@ impl DitheredSystem<'_> {
     ) -> Result<Option<Vec<SignChange>>, AveragingError> {
         let Some(critical) = CriticalSlopes::of(self.sliding()) else { return Ok(None) };
         let contact = &self.sliding().contacts()[0].steady;
+        let line = self.fast().line_over(self.system(), (0, input))?;
         let distance = |amplitude: f64| -> Result<f64, AveragingError> {
-            let line = self.fast().lines(self.system(), Some((input, amplitude)))?[0];
+            let line = line(amplitude)?;
             Ok(critical.distance(contact.factor * line.slope_under(contact.normal_load)))
         };
         let growth = |amplitude: f64| self.growth_at(input, amplitude);

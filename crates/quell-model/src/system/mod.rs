@@ -22,7 +22,7 @@ pub use input::{Input, InputTarget};
 pub use mass::MassMatrix;
 pub use structure::{Mechanical, SpeedDependence, StateSpace, Structure};
 
-use crate::profile::Wave;
+use crate::profile::{Profile, Wave};
 
 /// A structure, its contacts and its inputs.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,6 +151,35 @@ impl System {
         for input in &mut system.inputs {
             input.profile = input.profile.with_waves_scaled(factor);
         }
+        system
+    }
+
+    /// The same system with another amplitude of one input; its waves keep their shares of the first, and are all as large where the first
+    /// has no amplitude. Unchanged if it has no such input.
+    ///
+    /// ```
+    /// use quell_model::system::Input;
+    /// use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+    ///
+    /// let law = LawKind::Stribeck.build(&[0.4, 0.25, 0.5])?;
+    /// let dither = Dither::new(Direction::Tangential, Waveform::Sine, 0.5, 10.0);
+    /// let system = Belt::new(0.05, 1.0, 0.5, law, vec![dither])?.system();
+    /// let louder = system.with_amplitude(0, 2.0);
+    /// assert_eq!(louder.waves().next().map(|wave| wave.amplitude), Some(2.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_amplitude(&self, input: usize, amplitude: f64) -> Self {
+        let mut system = self.clone();
+        let Some(dither) = system.inputs.get_mut(input) else { return system };
+        let waves = dither.profile.waves().to_vec();
+        let first = waves.first().map_or(0.0, |wave| wave.amplitude);
+        let scaled = |wave: &Wave| {
+            let share = if first == 0.0 { 1.0 } else { wave.amplitude / first };
+            Wave { amplitude: share * amplitude, ..wave.clone() }
+        };
+        let still = dither.profile.without_waves();
+        dither.profile = waves.iter().map(scaled).fold(still, Profile::with);
         system
     }
 }

@@ -13,8 +13,7 @@ use crate::run::system::response::ResponseRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
-    atlas, basins, belt_system, bifurcation, design, noise_response, orbit, probability, response,
-    simulate,
+    atlas, basins, belt_system, bifurcation, noise_response, orbit, probability, response, simulate,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -121,7 +120,8 @@ impl Verbs for BeltStudy {
     }
 
     fn design(&self) -> Reply {
-        answer(self, design::run(self))
+        refused_of_belt(self, "design")?;
+        Verbs::design(&belt_system::described(self)?)
     }
 
     fn actuator(&self, frequencies: Option<(f64, f64)>) -> Reply {
@@ -133,7 +133,7 @@ impl Verbs for BeltStudy {
     }
 
     fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {
-        answer(self, probability::run(self, request, running))
+        Verbs::probability(&belt_system::described(self)?, request, running)
     }
 
     fn atlas(&self, exact: bool) -> Reply {

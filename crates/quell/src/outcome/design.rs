@@ -11,30 +11,7 @@ use crate::dataset::{Array, Dataset};
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::design::{DesignedDither, LeastDitherFound};
-use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, SystemSetup, SystemStudy};
-
-impl Presented<BeltSetup> for LeastDitherFound {
-    fn json(&self, study: &BeltStudy) -> Json {
-        self.json(study)
-    }
-
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(self.sentence(study))
-    }
-
-    fn table(&self, _: &BeltStudy) -> String {
-        table(self)
-    }
-
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        let dataset = Dataset::new(study, "design").fact(self.sentence(study));
-        vec![("design", choices(self, dataset))]
-    }
-
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::design(study, self)))
-    }
-}
+use crate::study::{DiscSetup, DiscStudy, SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for LeastDitherFound {
     const TITLED: bool = true;
@@ -57,7 +34,7 @@ impl Presented<SystemSetup> for LeastDitherFound {
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::design_of_system(study, self)))
+        Some(Ok(picture::design(study, self)))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The least dither: the amplitudes that are quiet over the second number that is chosen, or over the box of operating points.
 
-use super::caption::{caption, caption_of_disc, caption_of_system};
+use super::caption::{caption_of_disc, caption_of_system};
 use super::system::name_of as name_of_path;
 use quell_design::least_dither::{DesignObjective, DesignPoint, LimitedQuantity};
 
@@ -9,21 +9,13 @@ use crate::plot::{
     SharedLegend,
 };
 use crate::run::design::{LeastDitherFound, StudyWithDesign, quantity_of};
-use crate::run::varied::name_of;
 use crate::study::UnitSystem;
 use crate::study::key_at;
 use crate::study::vocabulary::DocumentKind;
-use crate::study::{BeltStudy, DiscStudy, SystemStudy};
+use crate::study::{DiscStudy, SystemStudy};
 
 /// Required amplitudes over the other number that is chosen, or over the operating points.
-pub fn design(study: &BeltStudy, done: &LeastDitherFound) -> Figure {
-    figure(study, done, &|path| axis(study, path))
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{}. {}", caption(study), done.sentence(study)))
-}
-
-/// The same of a system.
-pub fn design_of_system(study: &SystemStudy, done: &LeastDitherFound) -> Figure {
+pub fn design(study: &SystemStudy, done: &LeastDitherFound) -> Figure {
     let axis = |path: &str| {
         let axis = PlotAxis::new(name_of_path(path));
         match study.unit_of(path).filter(|unit| *unit != "1") {
@@ -106,14 +98,6 @@ fn figure(study: &dyn StudyWithDesign, done: &LeastDitherFound, axis: &AxisOfPat
         return Figure::grid(1, panels).legend(SharedLegend::Below);
     }
     Figure::grid(1, panels)
-}
-
-/// An axis of a number, by its key.
-fn axis(study: &BeltStudy, path: &str) -> PlotAxis {
-    let (about, symbol) = name_of(study, path).unwrap_or((path, ""));
-    let unit = study.address(path).map_or("", |address| address.unit);
-    let axis = PlotAxis::new(about).symbol(symbol);
-    if study.scales().is_some() && unit != "1" { axis.unit(unit) } else { axis }
 }
 
 /// An axis of a number of a disc, by its key.

@@ -41,7 +41,7 @@ pub use actuator::actuator;
 pub use atlas::{atlas, atlas_tables};
 pub use basins::basins;
 pub use compare::compare;
-pub use design::{design, design_of_disc, design_of_system};
+pub use design::{design, design_of_disc};
 pub use fit::fit;
 pub use fitted_record::{decay, record_fit};
 pub use map::{MOST_PANELS, MapAxis, MapKind, MappedQuantity, map, map_panel};

@@ -45,6 +45,7 @@ fn warned(study: &BeltStudy, warnings: Vec<String>) -> Result<SystemStudy, Failu
         warnings,
         sizes: sizes(study),
         actuator: study.actuator_in_units(),
+        design: study.design_in_units(),
         time: None,
     }))
 }

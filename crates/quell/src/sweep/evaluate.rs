@@ -16,7 +16,7 @@ use quell_linear::averaging::{
 use quell_linear::growth::Growth;
 use quell_model::Belt;
 
-use super::quench::{QuenchNumbers, quench_numbers_of_belt};
+use super::quench::{QuenchNumbers, quench_numbers};
 use super::status::Status;
 use crate::complaint::Failure;
 use crate::contact_state::differs_from_rigid;
@@ -499,7 +499,7 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
                         critical_amplitudes(belt, Averaging::Limit).map_err(status)
                     }));
             }
-            Computation::Quench => results.quench = Some(quench_numbers_of_belt(belt)),
+            Computation::Quench => results.quench = Some(quench_numbers(&belt.system(), 0)),
         }
     }
     results

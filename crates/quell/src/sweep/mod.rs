@@ -38,7 +38,7 @@ pub use grid::{Grid, GridAxis, MOST_POINTS};
 pub use plan::Plan;
 pub use quantity::{MapQuantity, Variable, VariableKind};
 pub use quench::QuenchNumbers;
-pub(crate) use quench::{least_quiet_of_belt, least_quiet_of_system};
+pub(crate) use quench::least_quiet;
 pub(crate) use runner::run;
 pub use runner::{MOST_THREADS, Progress, Running};
 pub use shard::Shard;

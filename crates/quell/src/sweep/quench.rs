@@ -1,10 +1,8 @@
-//! The exact quench amplitude at a point of a map of belts or systems.
+//! The exact quench amplitude at a point of a map.
 
-use quell_design::quench::{
-    NoQuench, NotQuenched, Quench, quench_kind, quench_of_belt, quench_of_system,
-};
+use quell_design::quench::{NoQuench, NotQuenched, Quench, quench, quench_kind};
 use quell_dynamics::simulation::within;
-use quell_model::{Belt, System};
+use quell_model::System;
 
 use super::status::Status;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
@@ -62,35 +60,19 @@ fn no_quench(why: NoQuench) -> Status {
     }
 }
 
-pub(super) fn quench_numbers_of_belt(belt: &Belt) -> Result<QuenchNumbers, Status> {
-    let found = within(STEPS_OF_MANY_SEARCHES, || quench_of_belt(belt));
-    found.map(|found| QuenchNumbers::of(&found)).map_err(no_quench)
-}
-
 /// The numbers about one dither of a system, that of `input`.
-pub(super) fn quench_numbers_of_system(
-    system: &System,
-    input: usize,
-) -> Result<QuenchNumbers, Status> {
-    let found = within(STEPS_OF_MANY_SEARCHES, || quench_of_system(system, input));
+pub(super) fn quench_numbers(system: &System, input: usize) -> Result<QuenchNumbers, Status> {
+    let found = within(STEPS_OF_MANY_SEARCHES, || quench(system, input));
     found.map(|found| QuenchNumbers::of(&found)).map_err(no_quench)
 }
 
-/// The exact quench amplitude of the first dither of a belt as a number: 0 where sliding is stable without the dither, infinite where
-/// no amplitude up to the limit of the search is quiet.
+/// The exact quench amplitude of one dither of a system, that of `input`, as a number: 0 where sliding is stable without the dither,
+/// infinite where no amplitude up to the limit of the search is quiet.
 ///
 /// # Errors
 /// Why it is unknown.
-pub(crate) fn least_quiet_of_belt(belt: &Belt) -> Result<f64, Status> {
-    as_number(quench_numbers_of_belt(belt)?.least)
-}
-
-/// The same of a dither of a system, that of `input`.
-///
-/// # Errors
-/// Why it is unknown.
-pub(crate) fn least_quiet_of_system(system: &System, input: usize) -> Result<f64, Status> {
-    as_number(quench_numbers_of_system(system, input)?.least)
+pub(crate) fn least_quiet(system: &System, input: usize) -> Result<f64, Status> {
+    as_number(quench_numbers(system, input)?.least)
 }
 
 fn as_number(least: Result<f64, Status>) -> Result<f64, Status> {

@@ -17,7 +17,7 @@ use super::evaluate::{
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults, PointScales};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
-use super::quench::quench_numbers_of_system;
+use super::quench::quench_numbers;
 use super::quench_variables as quench;
 use super::status::Status;
 use crate::complaint::Failure;
@@ -127,7 +127,7 @@ fn evaluate(system: &System, wanted: &[Computation]) -> Results {
             }
             Computation::SystemCritical => results.system_critical = Some(critical(system)),
             Computation::SystemQuench => {
-                results.quench = Some(quench_numbers_of_system(system, 0));
+                results.quench = Some(quench_numbers(system, 0));
             }
             Computation::SystemOrbit => results.system_orbit = Some(base_response(system)),
             _ => {}

@@ -8,7 +8,7 @@ use super::super::phase::ContactNow;
 use super::super::series::horner_states;
 use super::super::stopped::MotionStopped;
 use super::numbers::LaneNumbers;
-use super::request::{Finish, PlannedMotion, Queue};
+use super::request::{Finish, Queue, QueuedRun};
 use super::shape::LaneShape;
 
 /// Number of runs that are integrated one by one rather than in this number of lanes: a step in all lanes takes about as long as so
@@ -80,7 +80,7 @@ impl LaneSlot<'_> {
 /// The runs of one shape, and their lanes.
 pub(super) struct LaneLoop<'a, 'f, V: Lane> {
     shape: &'f LaneShape,
-    queue: std::vec::IntoIter<(usize, PlannedMotion<'a>)>,
+    queue: std::vec::IntoIter<QueuedRun<'a>>,
     tolerance: f64,
     finish: Finish<'f>,
     /// Present from the first run on.
@@ -133,8 +133,9 @@ impl<'a, 'f, V: Lane> LaneLoop<'a, 'f, V> {
         let mut is_new = false;
         for lane in 0..V::LANES {
             while self.slots[lane].is_none() {
-                let Some((number, request)) = self.queue.next() else { break };
-                let mut run = request.prepared(self.tolerance);
+                let Some(next) = self.queue.next() else { break };
+                let number = next.number;
+                let mut run = next.prepared(self.tolerance);
                 if let Err(why) = run.open() {
                     (self.finish)(number, Err(why));
                     continue;

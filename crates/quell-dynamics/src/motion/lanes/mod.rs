@@ -29,8 +29,9 @@ use quell_numerics::lane::Lane;
 
 use self::drive::LaneLoop;
 pub use self::request::PlannedMotion;
-use self::request::{Finish, Queue};
+use self::request::{Finish, Queue, QueuedRun};
 use self::shape::LaneShape;
+use super::MotionEngine;
 use super::one_mass::{PlannedMass, run_masses};
 use super::state::MotionEnd;
 use super::stopped::MotionStopped;
@@ -68,16 +69,20 @@ pub fn run_many_with(
     let mut masses: (Vec<usize>, Vec<PlannedMass<'_>>) = (Vec::new(), Vec::new());
     for (number, request) in requests.into_iter().enumerate() {
         assert_eq!(request.start.state.len(), request.motion.size(), "numbers of the state");
-        if let Some(mass) = &request.motion.one_mass {
-            let PlannedMotion { start, until, observer, .. } = request;
-            masses.0.push(number);
-            masses.1.push(PlannedMass { mass, start, until, observer });
-            continue;
-        }
-        let shape = LaneShape::of(request.motion);
+        let equations = match &request.motion.engine {
+            MotionEngine::OneMass(mass, _) => {
+                let PlannedMotion { start, until, observer, .. } = request;
+                masses.0.push(number);
+                masses.1.push(PlannedMass { mass, start, until, observer });
+                continue;
+            }
+            MotionEngine::General(equations) => equations.as_ref(),
+        };
+        let shape = LaneShape::of(request.motion.system, equations);
+        let run = QueuedRun { number, equations, request };
         match groups.iter_mut().find(|(other, _)| *other == shape) {
-            Some((_, group)) => group.push((number, request)),
-            None => groups.push((shape, vec![(number, request)])),
+            Some((_, group)) => group.push(run),
+            None => groups.push((shape, vec![run])),
         }
     }
     for (number, end) in masses.0.into_iter().zip(run_masses(set, masses.1, tolerance)) {
@@ -98,8 +103,8 @@ pub fn run_many_with(
 }
 
 fn run_one_by_one(queue: Queue<'_>, tolerance: f64, finish: Finish<'_>) {
-    for (number, request) in queue {
-        finish(number, request.prepared(tolerance).run());
+    for run in queue {
+        finish(run.number, run.prepared(tolerance).run());
     }
 }
 

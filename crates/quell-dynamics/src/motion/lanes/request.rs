@@ -2,6 +2,7 @@
 
 use super::super::Motion;
 use super::super::engine::MotionRun;
+use super::super::equations::MotionEquations;
 use super::super::observer::MotionObserver;
 use super::super::state::{MotionEnd, MotionStart};
 use super::super::stopped::MotionStopped;
@@ -18,16 +19,23 @@ pub struct PlannedMotion<'a> {
     pub observer: &'a mut dyn MotionObserver,
 }
 
-impl<'a> PlannedMotion<'a> {
+/// A run of the engine for any system, with its number in the order of the requests and the equations.
+pub(super) struct QueuedRun<'a> {
+    pub(super) number: usize,
+    pub(super) equations: &'a MotionEquations,
+    pub(super) request: PlannedMotion<'a>,
+}
+
+impl<'a> QueuedRun<'a> {
     /// The run, before its first decision.
     pub(super) fn prepared(self, tolerance: f64) -> MotionRun<'a> {
-        let Motion { system, equations, .. } = self.motion;
-        MotionRun::new((system, equations), &self.start, self.until, tolerance, self.observer)
+        let PlannedMotion { motion, start, until, observer } = self.request;
+        MotionRun::new((motion.system, self.equations), &start, until, tolerance, observer)
     }
 }
 
-/// Runs, each with its number in the order of the requests.
-pub(super) type Queue<'a> = Vec<(usize, PlannedMotion<'a>)>;
+/// Runs of systems of one shape.
+pub(super) type Queue<'a> = Vec<QueuedRun<'a>>;
 
 /// Receives the end of a run and its number.
 pub(super) type Finish<'f> = &'f mut dyn FnMut(usize, Result<MotionEnd, MotionStopped>);

@@ -1,8 +1,8 @@
 //! The structure that the lanes of a group share.
 
+use quell_model::System;
 use quell_model::friction::Friction;
 
-use super::super::Motion;
 use super::super::contact_equation::ContactEquation;
 use super::super::equations::{Forcings, MotionEquations};
 use super::super::rows::StateRow;
@@ -35,16 +35,16 @@ impl PartialEq for ContactShape {
 }
 
 impl LaneShape {
-    /// The shape of a system; `None` if it cannot share lanes.
-    pub(super) fn of(motion: &Motion<'_>) -> Option<Self> {
-        let MotionEquations { size, contacts, by_speed, .. } = &motion.equations;
+    /// The shape of a system with its equations; `None` if it cannot share lanes.
+    pub(super) fn of(system: &System, equations: &MotionEquations) -> Option<Self> {
+        let MotionEquations { size, contacts, by_speed, .. } = equations;
         let has_own_state = contacts.iter().any(|contact| contact.own.is_some());
         let is_small = [2, 4, 6, 8].contains(size) && contacts.len() <= FEW_CONTACTS;
         if !is_small || has_own_state || by_speed.is_some() {
             return None;
         }
-        let forcings = Forcings::of(motion.system, Clock::at(0.0));
-        let shapes = contacts.iter().zip(&forcings.contacts).zip(&motion.system.contacts);
+        let forcings = Forcings::of(system, Clock::at(0.0));
+        let shapes = contacts.iter().zip(&forcings.contacts).zip(&system.contacts);
         let shapes = shapes.map(|((equation, forcing), contact)| {
             let ContactEquation { tangent, approach, slope, along, across, .. } = equation;
             let varying = [&forcing.surface, &forcing.load, &forcing.guided].map(Varying::of);

@@ -244,7 +244,7 @@ pub(super) fn shot_within(
     if let Some(found) = motion.mass_shot((state, time), sign, tolerance) {
         return Ok(of_one_mass(motion, found.map_err(NoImage::Stopped)?));
     }
-    let new = || MotionVariation::new(motion);
+    let new = || MotionVariation::new(motion).map_err(NoImage::Immobile);
     let (end, variation) = run_over(motion, state, (time, tolerance), held, new)?;
     count_taken(VARIATION * end.steps);
     if variation.has_failed {
@@ -307,12 +307,12 @@ fn run_over<O: MotionObserver>(
     state: &[f64],
     (time, tolerance): (f64, f64),
     held: Option<&MotionSignature>,
-    observer: impl Fn() -> O,
+    observer: impl Fn() -> Result<O, NoImage>,
 ) -> Result<(MotionEnd, O), NoImage> {
     let contacts = motion.system().contacts.len();
     let run = |state: Vec<f64>| {
         let start = MotionStart { time: 0.0, state };
-        let mut observer = observer();
+        let mut observer = observer()?;
         let end = match held {
             Some(held) => motion.continued(&start, &held.slipping(contacts), time, &mut observer),
             None => motion.run(&start, time, tolerance, &mut observer),
@@ -393,7 +393,8 @@ impl PeriodMap for MotionFamily<'_> {
         let system = (self.at)(parameters).map_err(NoImage::Invalid)?;
         let motion = Motion::new(&system).map_err(NoImage::Immobile)?;
         let time = time_of(&motion, self.periods)?;
-        run_over(&motion, state, (time, MOTION_TOLERANCE), held, || ()).map(|(end, ())| end.state)
+        run_over(&motion, state, (time, MOTION_TOLERANCE), held, || Ok(()))
+            .map(|(end, ())| end.state)
     }
 
     fn smoother(&self, signature: &MotionSignature, parameters: &[f64]) -> Vec<MotionSignature> {

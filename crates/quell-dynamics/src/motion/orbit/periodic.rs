@@ -239,6 +239,10 @@ pub(super) fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMoti
     time_of(motion, periods.max(1)).map_err(NoMotionOrbit::NoImage)
 }
 
+/// Shares of the dither on both sides of 1 between which a branch that changes there may be lost: the response at 1 is then sought from
+/// one beyond the change. Next to a grazing the steps of a continuation become smaller than the rounding of their ends.
+const NEXT_TO_A_CHANGE: f64 = 1e-4;
+
 /// The base response: the orbit that continues steady sliding as the dither grows from zero, followed in the common factor of
 /// all amplitudes in at least `steps` steps.
 ///
@@ -248,25 +252,43 @@ pub fn base_motion(system: &System, steps: u32) -> Result<MotionOrbit, NoMotionO
     let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
     let period = period_of(&motion, 1)?;
     let sliding = sliding_state(system).map_err(NoMotionOrbit::NoSliding)?;
-    let at = |factor: &[f64]| Ok(system.with_amplitudes_scaled(factor[0]));
-    let scale = scale_of(&motion, &sliding);
+    let grown = |to: f64| grown(&motion, &sliding, (to, steps));
+    let why = match grown(1.0) {
+        Ok(Ok(state)) => return orbit_at(&motion, &state, period, false),
+        Ok(Err((why, changes_at))) if (changes_at - 1.0).abs() < NEXT_TO_A_CHANGE => why,
+        Ok(Err((why, _))) | Err(why) => return Err(why),
+    };
+    match grown(1.0 + NEXT_TO_A_CHANGE) {
+        Ok(Ok(state)) => motion_near(system, &state, 1).map_err(|_| why),
+        _ => Err(why),
+    }
+}
+
+/// The state of the base response under a share of the dither, grown from none; or why it is lost on the way, and the share at which the
+/// branch changes last.
+fn grown(
+    motion: &Motion<'_>,
+    sliding: &[f64],
+    (to, steps): (f64, u32),
+) -> Result<Result<Vec<f64>, (NoMotionOrbit, f64)>, NoMotionOrbit> {
+    let at = |factor: &[f64]| Ok(motion.system().with_amplitudes_scaled(factor[0]));
+    let scale = scale_of(motion, sliding);
     let family = MotionFamily { at: &at, periods: 1, size: sliding.len(), scale };
-    let options = Follow::window(0.0, 1.0, steps).only_forwards();
-    let branch = follow(&family, &sliding, 0.0, true, options)?;
-    let fold = branch.special_points.iter().find(|point| point.is_turn());
-    if let Some(fold) = fold {
-        return Err(NoMotionOrbit::Ends { share: fold.parameter });
-    }
-    match branch.end {
-        End::Window { at: 1.0 } => {}
-        End::Grazing { at } | End::TurnsBack { at } => {
-            return Err(NoMotionOrbit::Ends { share: at });
+    let options = Follow::window(0.0, to, steps).only_forwards();
+    let branch = follow(&family, sliding, 0.0, true, options)?;
+    let turns = branch.special_points.iter().find(|point| point.is_turn());
+    let why = match (turns, branch.end) {
+        (Some(turn), _) => NoMotionOrbit::Ends { share: turn.parameter },
+        (None, End::Window { at }) if at == to => {
+            let last = branch.points.last().ok_or(NoMotionOrbit::Ends { share: 0.0 })?;
+            return Ok(Ok(last.state.clone()));
         }
-        End::Lost { at } | End::TooLong { at } => return Err(NoMotionOrbit::Lost { share: at }),
-        End::Window { .. } | End::Closed => return Err(NoMotionOrbit::Ends { share: 0.0 }),
-    }
-    let last = branch.points.last().ok_or(NoMotionOrbit::Ends { share: 0.0 })?;
-    orbit_at(&motion, &last.state, period, false)
+        (None, End::Grazing { at } | End::TurnsBack { at }) => NoMotionOrbit::Ends { share: at },
+        (None, End::Lost { at } | End::TooLong { at }) => NoMotionOrbit::Lost { share: at },
+        (None, End::Window { .. } | End::Closed) => NoMotionOrbit::Ends { share: 0.0 },
+    };
+    let changes_at = branch.special_points.last().map_or(0.0, |point| point.parameter);
+    Ok(Err((why, changes_at)))
 }
 
 /// Distance from steady sliding, relative to its state and the velocities of the surfaces, within which a state is on it: the distance

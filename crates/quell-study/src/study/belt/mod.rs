@@ -184,10 +184,24 @@ impl BeltStudy {
 
     /// The same in the units of [`BeltStudy::system`].
     pub fn actuator_in_units(&self) -> Option<Actuator> {
+        actuator::read(&mut self.reader_in_units(), &self.source.document).flatten()
+    }
+
+    /// The design in these units.
+    pub fn design_in_units(&self) -> Option<Design> {
+        let first = self.belt().dithers().first();
+        let context = DesignContext {
+            waveform: first.map(|dither| &dither.waveform),
+            document: &self.source.document,
+            places: &[],
+        };
+        design::read(&mut self.reader_in_units(), &self.source.document, context).flatten()
+    }
+
+    fn reader_in_units(&self) -> Reader {
         let source = &self.source;
-        let mut reader = Reader::in_units(self.units(), EquationScale::OfTheFile)
-            .with(source.files.to_read_again(), source.computed.clone());
-        actuator::read(&mut reader, &source.document).flatten()
+        Reader::in_units(self.units(), EquationScale::OfTheFile)
+            .with(source.files.to_read_again(), source.computed.clone())
     }
 
     /// The amplitudes that the study gives by another size than a peak force.

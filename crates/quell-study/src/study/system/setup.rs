@@ -64,6 +64,8 @@ pub struct DescribedSystem {
     pub sizes: Vec<GivenSize>,
     /// The actuator that gives the first dither, in these units.
     pub actuator: Option<Actuator>,
+    /// The design that is requested, in these units.
+    pub design: Option<Design>,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
 }
@@ -78,6 +80,7 @@ impl From<DescribedSystem> for SystemSetup {
             mut warnings,
             sizes,
             actuator,
+            design,
             time,
         } = described;
         warnings.extend(passivity::warnings(&system.contacts, units));
@@ -89,7 +92,7 @@ impl From<DescribedSystem> for SystemSetup {
             named: NumbersByName::default(),
             warnings,
             response: None,
-            design: None,
+            design,
             actuator,
             sizes: sizes.into(),
             time,

@@ -9,7 +9,7 @@ mod round_numbers;
 use quell_design::atlas::{
     Atlas, AtlasAnswer, AtlasErrors, AtlasPoint, AtlasTable, ERROR_BANDS, OutsideAtlas,
 };
-use quell_design::quench::quench_of_belt;
+use quell_design::quench::quench;
 use quell_dynamics::simulation::within;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -68,7 +68,7 @@ pub fn run(study: &BeltStudy, exact: bool) -> Result<AtlasFound, Failure> {
         why: "the atlas lacks the tables of this law and waveform".to_owned(),
     })?;
     let exact = exact.then(|| {
-        let found = within(STEPS_OF_A_SEARCH, || quench_of_belt(belt));
+        let found = within(STEPS_OF_A_SEARCH, || quench(&belt.system(), 0));
         let found = found.map_err(|why| format!("the base response was not followed: {why:?}"))?;
         let grazing = answer.grazing.0 * belt.friction().velocity_scale();
         if let Some(end) = found.branch.end.filter(|end| *end < LOST_BEFORE * grazing) {

@@ -51,6 +51,20 @@ pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
     Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
 }
 
+/// The complaint about an end of a range of `[design]`.
+pub(crate) fn at_end(complaint: Complaint, key: &str, path: &str) -> Complaint {
+    let Complaint { key: own, value, allowed, .. } = &complaint;
+    let allowed =
+        format!("ranges of valid studies; at an end of {path}, {own} = {value} must be {allowed}");
+    Complaint {
+        key: format!("design.{key}"),
+        origin: Origin::Whole,
+        value: path.into(),
+        allowed,
+        ..complaint
+    }
+}
+
 /// The least of the dithers of a study, each with its system; `input` is that of the dither, `observe` the row over the coordinates whose
 /// response is reported.
 ///

@@ -2,14 +2,13 @@
 //!
 //! | file | contents |
 //! |---|---|
-//! | `belt` | the question about a belt; those about discs and systems are in `run::disc` and `run::system` |
+//! | (in `run::disc` and `run::system`) | the question about a kind of study |
 //! | `study_with_design` | what a kind of study answers about itself |
 //! | `least`, `sampling`, `sensitivity` | the search over waveforms, random samples, derivatives |
 //! | `found` | what is found |
 //! | `answer`, `confident`, `covered`, `drive`, `frontier`, `schedule`, `slow`, `validity` | its parts as sentences, warnings and JSON |
 
 mod answer;
-mod belt;
 mod confident;
 mod covered;
 mod drive;
@@ -26,14 +25,12 @@ mod validity;
 mod waveform;
 
 pub(crate) use answer::quantity_of;
-pub(crate) use belt::at_end;
-pub use belt::run;
 pub use found::{
     AmplitudeRate, ConfidentDither, DesignNumber, DesignSensitivity, DesignedDither,
     LeastDitherFound,
 };
 pub(crate) use found::{DesignNumbers, TriedDither};
-pub(crate) use least::{asked, least_dither, least_dither_of_systems, without_amplitude};
+pub(crate) use least::{asked, at_end, least_dither, least_dither_of_systems, without_amplitude};
 pub use slow_response::{LargestSlowResponse, SlowResponse};
 pub use study_with_design::{FrequencyScale, StudyWithDesign};
 pub(crate) use waveform::system_with_waveform;

@@ -1,14 +1,12 @@
-//! The response to a dither that repeats in the band of the vibration, on the base response of a belt or a system.
+//! The response to a dither that repeats in the band of the vibration, on the base response.
 
 use quell_dynamics::motion::MotionStart;
 use quell_dynamics::motion::orbit::base_motion;
-use quell_dynamics::orbit::from_sliding;
-use quell_dynamics::response::{BAND_END, PEAK_FLOOR, Peak, Spectrum, respond, respond_system};
-use quell_model::{System, Waveform};
+use quell_dynamics::response::{PEAK_FLOOR, Peak, Spectrum, respond_system};
+use quell_model::System;
 
-use super::waveform::with_waveform;
 use crate::run::system::response::{ResponseRequest, plan_of, undefined};
-use crate::study::{BeltStudy, SystemStudy};
+use crate::study::SystemStudy;
 
 /// Steps by which the dither grows from zero to the base response.
 const GROWTH_STEPS: u32 = 8;
@@ -39,24 +37,6 @@ fn strongest(spectrum: &Spectrum) -> Option<Peak> {
     peaks.into_iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
 }
 
-/// The response of a belt on its base response.
-pub(super) fn of_belt(
-    study: &BeltStudy,
-    waveform: &Waveform,
-    numbers: &[(&str, f64)],
-) -> Result<SlowResponse, String> {
-    let study = study.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
-    let belt = with_waveform(study.belt(), waveform).map_err(|why| why.to_string())?;
-    if belt.has_contact_state() {
-        return Err("a belt whose contact has a state is measured by `response`".to_owned());
-    }
-    let orbit = from_sliding(&belt, GROWTH_STEPS).map_err(|why| why.to_string())?;
-    let found = respond(&belt, orbit.start, study.solver()).map_err(|why| why.to_string())?;
-    let residual_vibration = found.residual_vibration.map_err(|why| why.to_string())?;
-    let tones = [&found.record, &found.undithered_record].map(|record| strongest(&record.spectrum));
-    slow_response(residual_vibration, BAND_END, tones)
-}
-
 /// The response of a system on its base response.
 pub(super) fn of_system(study: &SystemStudy, system: &System) -> Result<SlowResponse, String> {
     let plan = plan_of(study, ResponseRequest::default()).map_err(|why| why.to_string())?;
@@ -65,18 +45,8 @@ pub(super) fn of_system(study: &SystemStudy, system: &System) -> Result<SlowResp
     let found = respond_system(system, &start, &plan).map_err(|why| why.to_string())?;
     let residual_vibration = found.residual_vibration.map_err(undefined)?;
     let tones = [&found.dithered, &found.undithered].map(|record| strongest(&record.spectrum));
-    slow_response(residual_vibration, found.band_end, tones)
-}
-
-fn slow_response(
-    residual_vibration: f64,
-    band_end: f64,
-    tones: [Option<Peak>; 2],
-) -> Result<SlowResponse, String> {
-    match tones {
-        [Some(with), Some(without)] => {
-            Ok(SlowResponse { residual_vibration, band_end, tones: [with, without] })
-        }
-        _ => Err("the response has no line".to_owned()),
-    }
+    let [Some(with), Some(without)] = tones else {
+        return Err("the response has no line".to_owned());
+    };
+    Ok(SlowResponse { residual_vibration, band_end: found.band_end, tones: [with, without] })
 }

@@ -10,13 +10,13 @@ use quell_model::{System, Waveform};
 use serde_json::Value as Json;
 
 use super::slow_response::{self, SlowResponse};
-use super::waveform::{system_with_waveform, with_waveform};
+use super::waveform::system_with_waveform;
 use crate::fields::Fields;
 use crate::outcome::disc_units::DiscUnits;
-use crate::range::{outside_of_laws, sentence, with_dither};
+use crate::range::outside_of_laws;
 use crate::run::system::in_units;
-use crate::study::{BeltStudy, Design, DiscStudy, SystemStudy, Uncertainty, UnitSystem};
-use crate::words::{digits, in_words};
+use crate::study::{Design, DiscStudy, SystemStudy, Uncertainty, UnitSystem};
+use crate::words::digits;
 
 /// A study with a design: its units and what it requests.
 pub trait StudyWithDesign: Sync {
@@ -129,70 +129,6 @@ impl FrequencyScale {
         } else {
             self.with_unit(frequency)
         }
-    }
-}
-
-impl StudyWithDesign for BeltStudy {
-    fn slow_response(
-        &self,
-        waveform: &Waveform,
-        numbers: &[(&str, f64)],
-    ) -> Result<SlowResponse, String> {
-        slow_response::of_belt(self, waveform, numbers)
-    }
-
-    fn beyond_laws(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Vec<String> {
-        let Ok(study) = self.at(numbers.iter().copied()) else { return Vec::new() };
-        let Ok(belt) = with_waveform(study.belt(), waveform) else { return Vec::new() };
-        let slip = with_dither(&belt, belt.belt_velocity());
-        let range = belt.friction().range().filter(|range| slip > range.upper);
-        let warning =
-            range.map(|range| sentence(&study, &range, "slip including dither reaches", slip));
-        warning.into_iter().collect()
-    }
-
-    fn uncertain(&self) -> Option<&Uncertainty> {
-        self.uncertainty()
-    }
-
-    fn actuator(&self) -> Option<&Actuator> {
-        self.actuator()
-    }
-
-    fn asked(&self) -> Option<&Design> {
-        self.design()
-    }
-
-    fn fields(&self) -> Fields {
-        Fields::new(self.scales())
-    }
-
-    fn in_words(&self, quantity: Quantity, value: f64) -> String {
-        in_words(self, quantity, value)
-    }
-
-    fn frequency_scale(&self) -> FrequencyScale {
-        let hertz = self.scales().map(|scales| scales.per_unit(Quantity::FrequencyRatio));
-        FrequencyScale::new(hertz, "frequency ratio")
-    }
-
-    fn document(&self) -> Json {
-        Self::document(self)
-    }
-
-    fn number_at(&self, path: &str) -> Option<f64> {
-        number_in(&Self::document(self), path)
-    }
-
-    fn unit_at(&self, path: &str) -> String {
-        let unit = self.address(path).map_or("1", |address| address.unit);
-        if unit.is_empty() { "1".to_owned() } else { unit.to_owned() }
-    }
-
-    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String> {
-        let study = self.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
-        let belt = with_waveform(study.belt(), waveform).map_err(|why| why.to_string())?;
-        Ok(belt.system())
     }
 }
 
@@ -319,15 +255,4 @@ impl StudyWithDesign for DiscStudy {
     fn system_with(&self, _: &Waveform, _: &[(&str, f64)]) -> Result<System, String> {
         Err("derivatives are computed of belts and systems, whose thresholds are those of periodic motions".to_owned())
     }
-}
-
-/// The number at a path of a document; `None` where it has no number there.
-fn number_in(document: &Json, path: &str) -> Option<f64> {
-    let pointer = path.replace(['.', '['], "/").replace(']', "");
-    let whole = document.pointer(&format!("/{pointer}")).and_then(Json::as_f64);
-    // The path of an only entry has no index.
-    whole.or_else(|| {
-        let (table, rest) = pointer.split_once('/')?;
-        document.pointer(&format!("/{table}/0/{rest}")).and_then(Json::as_f64)
-    })
 }

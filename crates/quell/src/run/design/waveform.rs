@@ -1,7 +1,7 @@
 //! Structures with another waveform of the dither that is designed.
 
 use quell_model::profile::{Profile, Wave};
-use quell_model::{Belt, Dither, InvalidValues, System, Waveform};
+use quell_model::{System, Waveform};
 
 /// The system with another waveform of one dither.
 pub(crate) fn system_with_waveform(
@@ -17,11 +17,4 @@ pub(crate) fn system_with_waveform(
         input.profile = Profile::constant(input.profile.mean()).with(wave);
     }
     system
-}
-
-/// The belt with another waveform of its first dither.
-pub(super) fn with_waveform(belt: &Belt, waveform: &Waveform) -> Result<Belt, InvalidValues> {
-    let mut dithers: Vec<Dither> = belt.dithers().to_vec();
-    dithers[0].waveform = waveform.clone();
-    belt.dithered_by(dithers)
 }

@@ -73,6 +73,7 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
         .map(|hertz| ScaledTime { per_second: TAU * hertz, plain_in_seconds: study.is_si() });
     study.as_system(DescribedSystem {
         actuator: None,
+        design: None,
         units: UnitSystem::None,
         system,
         observe: observed_row(study),

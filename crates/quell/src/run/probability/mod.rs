@@ -14,7 +14,7 @@ use crate::parallel::Parallel;
 use quell_design::probability::{SobolIndices, binomial_interval, quantile, sobol_indices};
 use quell_numerics::order::ascending;
 
-pub use sampled::{AveragedGrowth, JudgedGrowth, SampledBelt, SampledKind};
+pub use sampled::{AveragedGrowth, JudgedGrowth, SampledKind};
 pub use thresholds::SampledThresholds;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -176,11 +176,11 @@ pub struct VibrationProbability {
     pub groups: Vec<Vec<usize>>,
     /// The verdicts.
     pub verdicts: VerdictTally,
-    /// The verdicts of averaging in the limit R → ∞, of a dithered belt judged by averaging.
+    /// The verdicts of averaging in the limit R → ∞, of one mass under dither judged by averaging.
     pub limit_verdicts: Option<VerdictTally>,
     /// The growth rates by averaging with the response of the structure to the dither.
     pub growth: SampledGrowth,
-    /// Those in the limit R → ∞, of a dithered belt.
+    /// Those in the limit R → ∞, of one mass under dither.
     pub limit_growth: Option<SampledGrowth>,
     /// The least quiet amplitudes of the first dither, by averaging or, judged by the base response, exactly.
     pub thresholds: SampledThresholds,

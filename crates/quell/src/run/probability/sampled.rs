@@ -1,33 +1,24 @@
 //! The kinds of study whose numbers can be uncertain, and the judges of one sample.
 
-use quell_design::least_dither::{averaged_quiet_of_belt, averaged_quiet_of_system};
-use quell_dynamics::attractor::reached;
-use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
-use quell_dynamics::start::{InitialState, NoSquealingStart};
+use quell_design::least_dither::averaged_quiet;
 use quell_linear::averaging::{AveragedVerdict, Averaging, criterion};
 use quell_linear::growth::{Growth, Verdict, of_criterion};
 use quell_model::disc::Disc;
-use quell_model::units::{Quantity, Scales};
-use quell_model::{Belt, Input, System};
+use quell_model::units::Quantity;
+use quell_model::{Dither, Input, OneMass, System};
 
 use super::ProbabilityStart;
 use crate::complaint::{Complaint, Failure};
-use crate::contact_state::refused_of_belt;
+use crate::contact_state::refused_where_averaged;
 use crate::fields::Fields;
 use crate::outcome::disc_units::DiscUnits;
-use crate::range;
 use crate::run::protocol::Protocol;
 use crate::run::stability::FAST;
 use crate::run::system::attractor::{end_of_run, local_verdict};
 use crate::run::system::{has_equations, in_units};
-use crate::study::{BeltStudy, DiscStudy, ParameterId, SystemStudy, UnitSystem};
-use crate::sweep::{
-    Status, growth_of_disc, growth_of_system, least_quiet_of_belt, least_quiet_of_system,
-};
-use crate::words::{digits, in_words};
-
-/// Steps by which the dither grows from zero to the base response of a belt.
-const GROWTH_STEPS: u32 = 8;
+use crate::study::{DiscStudy, ParameterId, SystemStudy, UnitSystem};
+use crate::sweep::{Status, growth_of_disc, growth_of_system, least_quiet};
+use crate::words::digits;
 
 /// A growth rate with its verdict.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,15 +43,15 @@ impl JudgedGrowth {
 /// The growth of small motions of one sample, by averaging under dither.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AveragedGrowth {
-    /// With the response of the structure to the dither: of a belt finite-R averaging.
+    /// With the response of the structure to the dither.
     pub growth: Result<JudgedGrowth, String>,
-    /// Of a dithered belt in the limit R → ∞.
+    /// Of one mass under dither in the limit R → ∞.
     pub limit: Option<Result<JudgedGrowth, String>>,
     /// Whether slip leaves the range of a friction law.
     pub beyond_range: bool,
     /// Whether the fast motion opens a contact.
     pub opens: bool,
-    /// Whether a dither of a belt is hardly fast, so that averaging may be wrong.
+    /// Whether a dither of one mass is hardly fast, so that averaging may be wrong.
     pub hardly_fast: bool,
 }
 
@@ -121,137 +112,29 @@ pub trait SampledKind {
 /// Why a study without dither has no threshold.
 const NO_DITHER: &str = "the study has no dither";
 
-/// A belt of a sample. Its equations may have other scales than those of the study: the mass or the stiffness may be uncertain.
-pub struct SampledBelt {
-    belt: Belt,
-    /// Rates and forces of the study's equations that one of this belt's is.
-    rate: f64,
-    force: f64,
-}
-
-impl SampledBelt {
-    fn new(belt: Belt, scales: Option<(Scales, Scales)>) -> Self {
-        let (mut rate, mut force) = (1.0, 1.0);
-        if let Some((study, own)) = scales {
-            let force_of = |scales: &Scales| scales.per_unit(Quantity::Force);
-            rate = own.angular_frequency() / study.angular_frequency();
-            force = force_of(&own) / force_of(&study);
-        }
-        Self { belt, rate, force }
-    }
-
-    fn growth(&self, options: Averaging) -> Result<JudgedGrowth, String> {
-        let found = by_averaging(&self.belt, options)?;
-        Ok(JudgedGrowth { rate: self.rate * found.rate, ..found })
-    }
-}
-
-impl SampledKind for BeltStudy {
-    type Sampled = SampledBelt;
-
-    fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure> {
-        if start == ProbabilityStart::Averaged {
-            // Averages are over the distribution of noise.
-            return match crate::contact_state::complaint_of_belt(self.belt(), "probability") {
-                Some(complaint) => Err(complaint.into()),
-                None => Ok(()),
-            };
-        }
-        refused_of_belt(self, "probability")
-    }
-
-    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<SampledBelt, String> {
-        let setup = self.setup_at(numbers).map_err(|why| why.to_string())?;
-        let belt = setup.belt();
-        Ok(SampledBelt::new(belt.clone(), self.scales().zip(belt.scales())))
-    }
-
-    fn averaged_growth(&self, sampled: &SampledBelt) -> AveragedGrowth {
-        let belt = &sampled.belt;
-        let amplitude = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
-        let slip = range::at_amplitude(belt, amplitude);
-        let beyond_range = belt.friction().range().is_some_and(|range| slip > range.upper);
-        let growth = sampled.growth(Averaging::FiniteR);
-        let limit = (!belt.dithers().is_empty()).then(|| sampled.growth(Averaging::Limit));
-        let hardly_fast = belt.dithers().iter().any(|dither| dither.lowest_ratio() < FAST);
-        AveragedGrowth { growth, limit, beyond_range, opens: false, hardly_fast }
-    }
-
-    fn threshold(&self, sampled: &SampledBelt, exactly: bool) -> Result<f64, String> {
-        let belt = &sampled.belt;
-        if belt.dithers().is_empty() {
-            return Err(NO_DITHER.to_owned());
-        }
-        let least = if exactly {
-            least_quiet_of_belt(belt).map_err(|why| why.about().to_owned())?
-        } else {
-            let quiet = averaged_quiet_of_belt(belt, (0.0, f64::INFINITY));
-            quiet.map_err(|why| why.to_string())?.least_from(0.0).unwrap_or(f64::INFINITY)
-        };
-        Ok(sampled.force * least)
-    }
-
-    fn vibrates(&self, sampled: &SampledBelt, start: ProbabilityStart) -> Result<bool, String> {
-        let belt = &sampled.belt;
-        let initial = match start {
-            ProbabilityStart::Averaged | ProbabilityStart::Local => return is_unstable(belt),
-            ProbabilityStart::Rest => InitialState::Rest,
-            ProbabilityStart::Squeal => InitialState::Squealing,
-        };
-        let start = match initial.resolve(belt) {
-            Ok(start) => start,
-            // Nothing to quench.
-            Err(NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest) => {
-                return Ok(false);
-            }
-            Err(NoSquealingStart::Stalled(why)) => return Err(why.to_string()),
-        };
-        let reached = reached(belt, start).map_err(|why| why.to_string())?;
-        let quiet = reached.is_quiet().ok_or("the run has not settled")?;
-        Ok(!quiet)
-    }
-
-    fn fields(&self) -> Fields {
-        Fields::new(self.scales())
-    }
-
-    fn force_in_words(&self, force: f64) -> String {
-        in_words(self, Quantity::Force, force)
-    }
-
-    fn unit_of_rates(&self) -> (&'static str, f64) {
-        self.scales().map_or(("ω₀", 1.0), |scales| ("1/s", scales.angular_frequency()))
-    }
-}
-
-fn by_averaging(belt: &Belt, options: Averaging) -> Result<JudgedGrowth, String> {
-    let found = criterion(belt, options).map_err(|why| why.to_string())?;
+/// Growth of small motions of one mass in the limit R → ∞; its verdict is that of the criterion.
+fn limit_growth(mass: &OneMass) -> Result<JudgedGrowth, String> {
+    let found = criterion(mass.belt(), Averaging::Limit).map_err(|why| why.to_string())?;
     let vibrates = match found.verdict {
         AveragedVerdict::Unstable => Ok(true),
         AveragedVerdict::Stable => Ok(false),
         AveragedVerdict::Undecided { .. } => Err(Status::WithinError.about().to_owned()),
     };
-    Ok(JudgedGrowth { rate: of_criterion(found.value), vibrates })
-}
-
-/// Whether the base response of a belt is unstable; without dither steady sliding.
-fn is_unstable(belt: &Belt) -> Result<bool, String> {
-    if !belt.dithers().iter().any(|dither| dither.amplitude != 0.0) {
-        return by_averaging(belt, Averaging::FiniteR)?.vibrates;
-    }
-    match from_sliding(belt, GROWTH_STEPS).map_err(|why| why.to_string())?.verdict() {
-        OrbitVerdict::Stable => Ok(false),
-        OrbitVerdict::Unstable => Ok(true),
-        OrbitVerdict::Undecided => Err("the verdict on the base response is undecided".to_owned()),
-    }
+    Ok(JudgedGrowth { rate: mass.rate() * of_criterion(found.value), vibrates })
 }
 
 impl SampledKind for SystemStudy {
     type Sampled = System;
 
     fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure> {
-        let verb = if start == ProbabilityStart::Averaged { "probability" } else { "orbit" };
-        has_equations(self, verb)
+        if start != ProbabilityStart::Averaged {
+            return has_equations(self, "orbit");
+        }
+        has_equations(self, "probability")?;
+        if self.system().is_dithered() {
+            refused_where_averaged(self.system(), "probability")?;
+        }
+        Ok(())
     }
 
     fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<System, String> {
@@ -259,15 +142,18 @@ impl SampledKind for SystemStudy {
     }
 
     fn averaged_growth(&self, system: &System) -> AveragedGrowth {
-        match growth_of_system(system) {
-            Ok(point) => AveragedGrowth {
-                growth: Ok(JudgedGrowth::of(point.growth)),
-                limit: None,
-                beyond_range: point.beyond_range,
-                opens: point.opens,
-                hardly_fast: false,
-            },
-            Err(status) => AveragedGrowth::of(Err(status.about().to_owned())),
+        let mass = system.is_dithered().then(|| system.one_averaged_mass()).flatten();
+        let is_slow = |dither: &Dither| dither.lowest_ratio() < FAST;
+        let (growth, beyond_range, opens) = match growth_of_system(system) {
+            Ok(point) => (Ok(JudgedGrowth::of(point.growth)), point.beyond_range, point.opens),
+            Err(status) => (Err(status.about().to_owned()), false, false),
+        };
+        AveragedGrowth {
+            growth,
+            limit: mass.as_ref().map(limit_growth),
+            beyond_range,
+            opens,
+            hardly_fast: mass.is_some_and(|mass| mass.belt().dithers().iter().any(is_slow)),
         }
     }
 
@@ -275,9 +161,9 @@ impl SampledKind for SystemStudy {
         let acts = |input: &Input| !input.profile.waves().is_empty();
         let input = system.inputs.iter().position(acts).ok_or(NO_DITHER)?;
         if exactly {
-            return least_quiet_of_system(system, input).map_err(|why| why.about().to_owned());
+            return least_quiet(system, input).map_err(|why| why.about().to_owned());
         }
-        let quiet = averaged_quiet_of_system(system, input, (0.0, f64::INFINITY));
+        let quiet = averaged_quiet(system, input, (0.0, f64::INFINITY));
         Ok(quiet.map_err(|why| why.to_string())?.least_from(0.0).unwrap_or(f64::INFINITY))
     }
 
