@@ -65,24 +65,12 @@ pub fn critical_amplitudes(
     belt: &Belt,
     averaging: Averaging,
 ) -> Result<Vec<CriticalAmplitude>, AveragingError> {
-    critical_amplitudes_up_to(belt, averaging, f64::INFINITY)
-}
-
-/// Those up to an amplitude D = αR.
-///
-/// # Errors
-/// As for [`critical_amplitudes`].
-pub fn critical_amplitudes_up_to(
-    belt: &Belt,
-    averaging: Averaging,
-    largest: f64,
-) -> Result<Vec<CriticalAmplitude>, AveragingError> {
     let Some(first) = belt.dithers().first() else {
         return Ok(Vec::new());
     };
     let averages = BeltAverages::new(belt, belt.belt_velocity(), averaging)?;
     let probe = Probe { belt, frequency_ratio: first.frequency_ratio, averages };
-    let largest = (largest / first.frequency_ratio).min(probe.end_of_expansion()?);
+    let largest = probe.end_of_expansion()?;
     let mut corners = probe.corners()?;
     let scale = corners
         .iter()

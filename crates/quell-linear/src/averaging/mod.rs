@@ -78,9 +78,7 @@ mod wave_response;
 
 pub use averaged_law::AveragedLaw;
 pub use criterion::{AveragedVerdict, Criterion, UndecidedBecause, criterion};
-pub use critical_amplitudes::{
-    Becomes, CriticalAmplitude, critical_amplitudes, critical_amplitudes_up_to,
-};
+pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
 pub use describing::{DescribedCycle, DescribingFunction, EquivalentGain};
 pub(crate) use dithers::commensurate_groups;
 pub use dithers::{Averaging, MAX_HARMONIC};

@@ -245,7 +245,7 @@ pub trait Verbs: Send + Sync {
     /// The least dither that is quiet over a box of operating points.
     ///
     /// # Errors
-    /// A kind without this verb; as [`crate::run::design::run`].
+    /// A kind without this verb; as [`crate::run::system::design::run`].
     fn design(&self) -> Reply {
         Err(self.lacks("design"))
     }
