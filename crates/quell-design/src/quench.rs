@@ -8,9 +8,9 @@
 use quell_dynamics::motion::orbit::{NoMotionOrbit, sliding_state};
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_linear::averaging::{AveragingError, DitheredSystem};
-use quell_model::System;
 use quell_model::profile::Wave;
 use quell_model::system::{Input, InputTarget};
+use quell_model::{Dither, System};
 
 use crate::least_dither::{
     AmplitudeBranch, QuietAmplitudes, QuietChange, amplitude_branch, averaged_quiet,
@@ -135,8 +135,18 @@ pub fn quench(system: &System, input: usize) -> Result<Quench, NoQuench> {
     let at = |amplitude: f64| Ok(system.with_amplitude(input, amplitude));
     let branch = amplitude_branch(&at, (0.0, limit), STEPS);
     let branch = branch.map_err(|why| no_branch(&why))?;
-    let averaged = averaged_quiet(system, input, (0.0, limit));
+    let averaged = match not_fast(system) {
+        Some(frequency_ratio) => Err(AveragingError::NotFast { frequency_ratio }),
+        None => averaged_quiet(system, input, (0.0, limit)),
+    };
     Ok(Quench { branch, averaged })
+}
+
+/// The lowest frequency of the dither of one mass over its natural frequency, where it is not above it: no average is a first guess.
+fn not_fast(system: &System) -> Option<f64> {
+    let mass = system.one_averaged_mass()?;
+    let ratios = mass.belt().dithers().iter().map(Dither::lowest_ratio);
+    Some(ratios.fold(f64::INFINITY, f64::min)).filter(|lowest| *lowest <= 1.0)
 }
 
 /// Why a system has no branch over the amplitude.

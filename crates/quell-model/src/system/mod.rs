@@ -158,12 +158,16 @@ impl System {
     /// has no amplitude. Unchanged if it has no such input.
     ///
     /// ```
-    /// use quell_model::system::Input;
-    /// use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+    /// use quell_model::profile::{Profile, Wave};
+    /// use quell_model::system::{Input, InputTarget};
+    /// use quell_model::{Belt, LawKind, Waveform};
     ///
     /// let law = LawKind::Stribeck.build(&[0.4, 0.25, 0.5])?;
-    /// let dither = Dither::new(Direction::Tangential, Waveform::Sine, 0.5, 10.0);
-    /// let system = Belt::new(0.05, 1.0, 0.5, law, vec![dither])?.system();
+    /// let mut system = Belt::new(0.05, 1.0, 0.5, law, Vec::new())?.system();
+    /// let wave = Wave { waveform: Waveform::Sine, amplitude: 0.5, frequency: 10.0, phase: 0.0, envelope: None };
+    /// let profile = Profile::constant(0.0).with(wave);
+    /// system.inputs = vec![Input { target: InputTarget::Force(vec![1.0]), profile }];
+    ///
     /// let louder = system.with_amplitude(0, 2.0);
     /// assert_eq!(louder.waves().next().map(|wave| wave.amplitude), Some(2.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

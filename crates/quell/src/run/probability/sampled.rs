@@ -142,7 +142,7 @@ impl SampledKind for SystemStudy {
     }
 
     fn averaged_growth(&self, system: &System) -> AveragedGrowth {
-        let mass = system.is_dithered().then(|| system.one_averaged_mass()).flatten();
+        let mass = system.one_averaged_mass().filter(|_| system.has_waves());
         let is_slow = |dither: &Dither| dither.lowest_ratio() < FAST;
         let (growth, beyond_range, opens) = match growth_of_system(system) {
             Ok(point) => (Ok(JudgedGrowth::of(point.growth)), point.beyond_range, point.opens),
