@@ -26,6 +26,7 @@ use crate::actuator::{Actuator, ActuatorDemand};
 const STEPS: u32 = 8;
 
 /// The end to which the base response is followed, over that of the range: what is quiet from just below the end is seen beyond it.
+/// The continuation needs some 10⁻⁶ beyond a grazing; with less room a threshold next to the end counts as never quiet. More costs a step.
 const BEYOND: f64 = 1.0 + 1e-4;
 
 /// Share of the range between two amplitudes at which runs from a start are tried.

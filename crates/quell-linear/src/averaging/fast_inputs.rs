@@ -26,6 +26,7 @@ const BEYOND: f64 = 30.0;
 /// Ratio of neighbouring amplitudes of the search …
 const STEP: f64 = 1.05;
 /// … and below the smallest corner divided by [`SMALL`], where mean friction changes like the square of the amplitude.
+/// Both are choices of effort: two changes between neighbours are missed.
 const SMALL_STEP: f64 = 1.3;
 /// See [`SMALL_STEP`].
 const SMALL: f64 = 20.0;

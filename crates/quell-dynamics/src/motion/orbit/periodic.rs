@@ -240,7 +240,8 @@ pub(super) fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMoti
 }
 
 /// Shares of the dither on both sides of 1 between which a branch that changes there may be lost: the response at 1 is then sought from
-/// one beyond the change. Next to a grazing the steps of a continuation become smaller than the rounding of their ends.
+/// one beyond the change. Next to a grazing the steps of a continuation become smaller than the rounding of their ends. This is a hundred
+/// times the 10⁻⁶ within which responses were seen to be lost; of a smaller value they are reported as lost.
 const NEXT_TO_A_CHANGE: f64 = 1e-4;
 
 /// The base response: the orbit that continues steady sliding as the dither grows from zero, followed in the common factor of
