@@ -35,10 +35,10 @@ def main(arguments: list[str] | None = None) -> int:
     except (QuellError, ImportError) as refused:
         print(refused, file=sys.stderr)
         return 2
-    print(f"The explorer is at {explorer.url}\nCtrl-C ends it.", flush=True)
-    if not given.no_browser:
-        webbrowser.open(explorer.url)
     try:
+        print(f"The explorer is at {explorer.url}\nCtrl-C ends it.", flush=True)
+        if not given.no_browser:
+            webbrowser.open(explorer.url)
         explorer.wait()
     except KeyboardInterrupt:
         pass
