@@ -263,12 +263,19 @@ fn times_and_starts_of_simulations_have_units() {
         let why = complaint(&all);
         assert!(why.contains(part), "{options:?}: {why}");
     }
-    let why = complaint(&["simulate", "stribeck-belt.toml", "--until", "1", "--start", "x=1"]);
-    assert!(why.contains("two finite numbers x,v"), "{why}");
-    let belt = ["simulate", "stribeck-belt.toml", "--until", "1", "--start", "0.2,-0.1"];
-    let begin = answer(&belt)["start"].clone();
-    assert_eq!((&begin["displacement"], &begin["velocity"]), (&0.2.into(), &(-0.1).into()));
-    assert!(complaint(&["simulate", "stribeck-belt.toml"]).contains("--until"));
+    let begin = |start: &str| {
+        let belt = ["simulate", "stribeck-belt.toml", "--until", "1", "--start", start];
+        answer(&belt)["start"].clone()
+    };
+    for start in ["0.2,-0.1", "x=0.2,velocity.x=-0.1"] {
+        let begin = begin(start);
+        assert_eq!((&begin["displacement"], &begin["velocity"]), (&0.2.into(), &(-0.1).into()));
+        assert_eq!(begin["state"], serde_json::json!([0.2, -0.1]));
+    }
+    assert_eq!(begin("x=1")["velocity"], 0.0);
+    // The usual duration.
+    let usual = answer(&["simulate", "stribeck-belt.toml"])["final"]["time"].as_f64();
+    assert!((usual.expect("a time") / (200.0 * std::f64::consts::PI) - 1.0).abs() < 1e-4);
 }
 
 /// The belt as a system has the response of the belt itself.

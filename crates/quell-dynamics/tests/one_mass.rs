@@ -62,7 +62,8 @@ fn a_system_of_unit_mass_and_stiffness_has_the_bits_of_its_belt() {
         let motion = Motion::new(&system).expect("a motion");
         let mut recorder = MotionRecorder::default();
         let from = start(0.0, [0.0; 2]);
-        let same = motion.run(&from, 60.0, motion.run_tolerance(), &mut recorder).expect("a run");
+        let same =
+            motion.run(&from, 60.0, motion.run_tolerance(None), &mut recorder).expect("a run");
         assert_eq!(same.state, [end.displacement, end.velocity]);
         assert_eq!((same.steps, same.events, same.time), (end.steps, end.events, 60.0));
         assert_eq!(recorder.events.len(), events.events.len());

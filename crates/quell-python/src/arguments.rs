@@ -5,7 +5,6 @@ use quell::run::protocol::{numbers_of, pair_of};
 use quell::run::system::start::StateNumbers;
 use quell::study::{Study, SystemStudy};
 use quell::{Failure, quantity};
-use quell_model::units::{Quantity, Scales};
 
 /// Two numbers in the system of the study, or with units.
 pub(crate) type Pair = (String, String);
@@ -34,17 +33,6 @@ impl GivenState {
             Self::Pair((x, v)) => pair_of(system, option, (x, v))?,
         })
     }
-}
-
-/// A state: displacement and velocity as dimensionless numbers of the equations.
-pub(crate) fn state(
-    (x, v): &Pair,
-    scales: Option<Scales>,
-    option: &'static str,
-) -> Result<(f64, f64), Failure> {
-    let x = quantity::parse(x, Quantity::Displacement, scales, option)?;
-    let v = quantity::parse(v, Quantity::Velocity, scales, option)?;
-    Ok((x, v))
 }
 
 /// The ends of a range of a parameter, in the unit of its key.

@@ -240,5 +240,5 @@ def test_failures_of_stores_and_pictures_name_arguments(belt: quell.Belt, tmp_pa
 
 def test_times_that_nobody_could_wait_for_are_refused(belt: quell.Belt) -> None:
     for call in (lambda: belt.simulate(1e308), lambda: belt.thresholds("dither.amplitude", 0.3, 0.6, from_rest=True, ramp=1e99)):
-        with pytest.raises(quell.StudyError, match="1e9"):
+        with pytest.raises(quell.StudyError, match="1e9|10⁸ periods"):
             call()

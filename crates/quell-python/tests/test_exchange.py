@@ -155,7 +155,8 @@ def test_events_are_a_frame() -> None:
     run = gallery.result("simulate")
     assert isinstance(run, quell.results.Simulation)
     frame = run.events_frame()
-    assert list(frame.columns) == ["time", "contact", "kind", "slip_sign", "displacement", "velocity"] and len(frame) == run.event_count
+    of_moments = ["displacement", "velocity", "x", "velocity_x"]
+    assert list(frame.columns) == ["time", "contact", "contact_name", "kind", "slip_sign", *of_moments] and len(frame) == run.event_count
     assert frame["time"].tolist() == [it["time"] for it in run.events]
     in_si = gallery.result("simulate in SI")
     assert isinstance(in_si, quell.results.Simulation)

@@ -189,9 +189,9 @@ def test_an_invalid_number_is_refused_in_words_and_undo_works(belt_page: Page) -
 
 def test_clicks_choose_a_start_and_a_point_of_the_map(belt_page: Page) -> None:
     belt_page.click("quell-phase", 0.7, 0.3)
-    belt_page.wait("quell-motion-words", lambda it: it.startswith("Started from x = "))
+    belt_page.wait("quell-motion-words", lambda it: it.startswith("From x = "))
     belt_page.page.locator(".quell-restart button").click()
-    belt_page.wait("quell-motion-words", lambda it: it.startswith("Started from rest"))
+    belt_page.wait("quell-motion-words", lambda it: it.startswith("From rest"))
     before = belt_page.explorer.study.settings["dither.amplitude"]
     belt_page.click("quell-plane-picture", 0.4, 0.15)
     belt_page.until(lambda: belt_page.explorer.study.settings["dither.amplitude"] > before)

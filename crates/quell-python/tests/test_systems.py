@@ -211,10 +211,8 @@ def test_simulations_have_every_contact(hoffmann: quell.System, belt: quell.Belt
         hoffmann.simulate(1, start={"velocty.x": 1})
     with pytest.raises(quell.StudyError, match="start"):
         hoffmann.simulate(1, start=[1])  # type: ignore[arg-type]
-    with pytest.raises(quell.StudyError, match="until"):
-        belt.simulate()
-    with pytest.raises(quell.StudyError, match="start"):
-        belt.simulate(1, start={"x": 1})
+    assert belt.simulate().final["time"] == pytest.approx(200.0 * np.pi, rel=1e-4)
+    assert belt.simulate(1, start={"x": 1}).start["state"] == [1.0, 0.0]
 
 
 def test_responses_have_contacts_and_dithers(drive: quell.System, belt: quell.Belt) -> None:

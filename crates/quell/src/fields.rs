@@ -223,9 +223,11 @@ impl Fields {
     fn take(&mut self, path: &str, inner: Self) -> Map<String, Json> {
         let object = path.split('[').next().unwrap_or_default();
         for (name, unit) in inner.units {
-            let is_other = self.units.get(&name).is_some_and(|known| *known != unit);
-            let name = if is_other { format!("{object}.{name}") } else { name };
-            self.units.insert(name, unit);
+            match self.units.get(&name) {
+                Some(known) if *known == unit => {}
+                Some(_) => _ = self.units.insert(format!("{object}.{name}"), unit),
+                None => _ = self.units.insert(name, unit),
+            }
         }
         for (name, why) in inner.why {
             self.why.insert(format!("{path}.{name}"), why);
@@ -257,7 +259,7 @@ fn arrays(path: &str, value: &Json) -> Vec<String> {
             inner.flat_map(|(name, value)| arrays(&format!("{path}.{name}"), value)).collect()
         }
         Json::Array(items) if items.iter().any(Json::is_object) => {
-            let items = items.iter().enumerate();
+            let items = items.iter().enumerate().filter(|(_, item)| has_null(item));
             items.flat_map(|(index, item)| arrays(&format!("{path}[{index}]"), item)).collect()
         }
         Json::Array(_) if has_null(value) => vec![path.to_owned()],
@@ -268,6 +270,7 @@ fn arrays(path: &str, value: &Json) -> Vec<String> {
 fn has_null(value: &Json) -> bool {
     match value {
         Json::Array(items) => items.iter().any(has_null),
+        Json::Object(inner) => inner.values().any(has_null),
         value => value.is_null(),
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use quell::kind::{moving_system, verbs};
 use quell::run::disc::{motion, stability};
-use quell::run::system::simulate::MotionRequest;
+use quell::run::simulate::MotionRequest;
 use quell::run::system::start::read_state;
 use quell::study::{DiscStudy, Study};
 use serde_json::Value as Json;
@@ -115,7 +115,7 @@ fn names_start_units_and_files() {
     assert!(start.is_some(), "no such coordinate");
     let start = read_state(&system, "A2=0.001,velocity.B2=0.002").expect("coordinates");
     let request = MotionRequest { start, samples: true, ..until(50.0) };
-    let done = verbs(&any).simulate_from(&request).expect("a motion");
+    let done = verbs(&any).simulate(&request).expect("a motion");
     let json = done.json();
     assert_eq!(json["state_names"].as_array().map(Vec::len), Some(10));
     assert!(json["sentence"].as_str().is_some_and(|text| text.starts_with("From A2 = 0.001")));
@@ -123,6 +123,6 @@ fn names_start_units_and_files() {
     let names: Vec<&str> = done.datasets().iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["trajectory", "events"]);
     assert!(done.sound().expect("a sound").is_ok() && done.figure().expect("a picture").is_ok());
-    let chosen = verbs(&any).simulate_from(&MotionRequest::default()).expect("a motion").json();
+    let chosen = verbs(&any).simulate(&MotionRequest::default()).expect("a motion").json();
     assert!(chosen["sentence"].as_str().is_some_and(|text| text.contains("--until sets another")));
 }

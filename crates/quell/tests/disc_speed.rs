@@ -5,7 +5,7 @@ use std::path::Path;
 use quell::kind::verbs;
 use quell::run::disc::motion;
 use quell::run::disc::resonances::ResonancesRequest;
-use quell::run::system::simulate::MotionRequest;
+use quell::run::simulate::MotionRequest;
 use quell::study::{DiscStudy, Study};
 use quell_dynamics::motion::MotionStart;
 use serde_json::Value as Json;

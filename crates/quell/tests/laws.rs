@@ -2,8 +2,9 @@
 //!
 //! Numbers: `reference/laws.json` (source and tolerance in `reference/README.md`); published cases with their source.
 
-use quell::kind::verbs;
+use quell::kind::{moving_system, verbs};
 use quell::run::orbit::Wanted;
+use quell::run::simulate::{MotionRequest, Simulation};
 use quell::run::{basins, bifurcation, map, response, simulate, thresholds, varied};
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
@@ -109,21 +110,20 @@ fn events_and_states_agree_with_independent_integrators() {
     assert_eq!(cases.len(), 4);
     for case in cases {
         let study = study(case["study"].as_str().expect("text"));
-        let options = simulate::Options { events: true, ..simulate::Options::default() };
-        let run = simulate::run(&study, number(&case["until"]), options).expect("a run");
-        let events = run.events.expect("events");
+        let run = simulated(&study, number(&case["until"]));
+        let events = &run.history.events;
         let expected = case["events"].as_array().expect("events");
         assert_eq!(run.end.events, case["n_events"].as_u64().expect("a count"), "{case}");
         for (event, expected) in events.iter().zip(expected) {
             let kind = expected["kind"].as_str().expect("a kind");
             assert_eq!(event.kind.name(), kind, "{case}");
             assert!((event.time - number(&expected["time"])).abs() < 1e-9, "{event:?}: {expected}");
-            let moved = (event.displacement - number(&expected["displacement"])).abs();
+            let moved = (event.state[0] - number(&expected["displacement"])).abs();
             assert!(moved < 1e-9, "{event:?}: {expected}");
         }
         let end = &case["final"];
-        assert!((run.end.displacement - number(&end["displacement"])).abs() < 1e-9, "{case}");
-        assert!((run.end.velocity - number(&end["velocity"])).abs() < 1e-9, "{case}");
+        assert!((run.end.state[0] - number(&end["displacement"])).abs() < 1e-9, "{case}");
+        assert!((run.end.state[1] - number(&end["velocity"])).abs() < 1e-9, "{case}");
     }
 }
 
@@ -134,9 +134,9 @@ fn a_free_oscillator_comes_to_rest_where_it_must() {
         "schema = 1\n[belt]\ndamping_ratio = 0.0\nnormal_load = 1.0\nbelt_velocity = 0.0\n[belt.initial]\n\
          displacement = 12.0\nvelocity = 6.0\n[friction]\nlaw = \"coulomb\"\ncoefficient = 1.0\n",
     );
-    let run = simulate::run(&study, 60.0, simulate::Options::default()).expect("a run");
-    assert!(run.end.sticking);
-    assert!((run.end.displacement - (15.0 - 205f64.sqrt())).abs() < 1e-11, "{:?}", run.end);
+    let run = simulated(&study, 60.0);
+    assert!(run.end.contacts[0].phase == quell_dynamics::motion::ContactPhase::Stick);
+    assert!((run.end.state[0] - (15.0 - 205f64.sqrt())).abs() < 1e-11, "{:?}", run.end);
 }
 
 /// Veraszto and Stepan 2017, in newtons: 6 N at rest, a fall by 4 N over 0.1 m/s, 0.2 N·s/m.
@@ -168,13 +168,8 @@ fn friction_in_newtons_is_independent_of_the_normal_force() {
             assert!((force(study, v) / exact - 1.0).abs() < 1e-13, "{v}: {}", force(study, v));
         }
     }
-    let rests: Vec<f64> = [&own, &pressed, &same]
-        .iter()
-        .map(|study| {
-            let run = simulate::run(study, 200.0, simulate::Options::default()).expect("a run");
-            run.end.displacement
-        })
-        .collect();
+    let rests: Vec<f64> =
+        [&own, &pressed, &same].iter().map(|study| simulated(study, 200.0).end.state[0]).collect();
     for rest in &rests {
         assert!((rest / rests[0] - 1.0).abs() < 1e-7, "{rests:?}");
     }
@@ -236,9 +231,22 @@ fn friction_in_newtons_is_never_guessed() {
 fn laws_not_analytic_at_rest_are_only_averaged() {
     let text = DRIVE.replace("exponent = 1.0", "exponent = 0.5");
     let study = study(&text);
-    let wrong = simulate::run(&study, 10.0, simulate::Options::default()).expect_err("no branch");
+    let Err(wrong) = verbs(&(&study).into()).simulate(&MotionRequest::to(10.0)) else {
+        panic!("no branch");
+    };
     assert!(format!("{wrong:?}").contains("exponent = 1, 2, 3 or 4"), "{wrong:?}");
     assert!(stability(&study)["criterion"].is_f64());
+}
+
+/// The run of a belt from its start.
+fn simulated(study: &BeltStudy, until: f64) -> Simulation {
+    let system = moving_system(&study.into()).expect("a system");
+    simulate::run(&system, &MotionRequest::to(until)).unwrap_or_else(|why| panic!("{why}"))
+}
+
+/// Its answer; the time is in the units of the study.
+fn run_to(study: &BeltStudy, until: f64) -> Json {
+    verbs(&study.into()).simulate(&MotionRequest::to(until)).expect("a run").json()
 }
 
 fn stability(study: &BeltStudy) -> Json {
@@ -266,7 +274,7 @@ fn a_cubic_far_out_warns_in_the_study_s_units() {
         stability(&far),
         friction(&far, Some(&[far.belt().belt_velocity()])),
         verbs(&quell::Study::from(&far)).check().expect("valid").json(),
-        simulate::run(&far, 20.0, simulate::Options::default()).expect("a run").json(&far),
+        run_to(&far, 20.0 / 1e3),
         response::run(&set(si, &["solver.settle_s=0.1", "solver.record_periods=4"]))
             .expect("a response")
             .json(&far),
@@ -309,9 +317,8 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     warns(&friction(&outside, None));
     quiet(&stability(&inside));
     warns(&stability(&outside));
-    let options = simulate::Options::default();
-    quiet(&simulate::run(&inside, 40.0, options.clone()).expect("a run").json(&inside));
-    warns(&simulate::run(&outside, 40.0, options).expect("a run").json(&outside));
+    quiet(&run_to(&inside, 40.0));
+    warns(&run_to(&outside, 40.0));
     quiet(&response::run(&inside).expect("a response").json(&inside));
     warns(&response::run(&outside).expect("a response").json(&outside));
     quiet(&orbit(&inside));
@@ -379,11 +386,9 @@ fn formulas_are_proven_for_every_study() {
     );
     let meant = set(&falling, &["belt.belt_velocity=0.5", "friction.maximum_velocity=3.0"]);
     assert_eq!(meant.belt().friction().range().map(|range| range.upper), Some(3.0));
-    let run = simulate::run(&meant, 30.0, simulate::Options::default()).expect("a run");
-    assert_eq!(warnings(&run.json(&meant)), "");
+    assert_eq!(warnings(&run_to(&meant, 30.0)), "");
     let narrow = set(&falling, &["friction.maximum_velocity=0.12"]);
-    let run = simulate::run(&narrow, 30.0, simulate::Options::default()).expect("a run");
-    let said = warnings(&run.json(&narrow));
+    let said = warnings(&run_to(&narrow, 30.0));
     assert!(
         said.contains("range of the expression law, 0 to 0.12 (the maximum velocity"),
         "{said}"

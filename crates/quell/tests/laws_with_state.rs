@@ -6,11 +6,11 @@ use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::orbit::{Wanted, run as orbit_run};
 use quell::run::protocol::Protocol;
+use quell::run::response;
+use quell::run::simulate::{MotionRequest, run as run_system};
 use quell::run::stability::run as system_stability;
 use quell::run::system::exact::run as system_exact;
-use quell::run::system::simulate::{MotionRequest, run as run_system};
 use quell::run::thresholds::ThresholdsRequest;
-use quell::run::{response, simulate};
 use quell::study::{BeltStudy, Study, SystemStudy};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
@@ -125,10 +125,10 @@ fn belts_move_as_independent_integrators_find() {
     for case in cases {
         count += 1;
         let study = belt(text(&case["study"]));
-        let options = simulate::Options { events: true, ..simulate::Options::default() };
-        let run = simulate::run(&study, number(&case["until"]), options).expect("a run");
-        let json = run.json(&study);
-        compare(case, &json, |event| (number(&event["displacement"]), number(&event["velocity"])));
+        let request = MotionRequest::to(number(&case["until"]));
+        let json = verbs(&Study::from(&study)).simulate(&request).expect("a run").json();
+        let at = |event: &Json, place: usize| number(&event["state"][place]);
+        compare(case, &json, |event| (at(event, 0), at(event, 1)));
         let end = &json["final"];
         assert!(off(&case["final"]["displacement"], &end["displacement"]) < 1e-9);
         assert!(off(&case["final"]["velocity"], &end["velocity"]) < 1e-9);

@@ -1,9 +1,9 @@
 //! Noise: what a study says about it, its runs, its averages, and the share of seeds that quench.
 
 use quell::Study;
-use quell::kind::verbs;
+use quell::kind::{moving_system, verbs};
 use quell::run::noise_response::{self, NoiseResponse};
-use quell::run::simulate;
+use quell::run::simulate::{self, MotionRequest};
 use quell::study::{BeltStudy, SystemStudy};
 use quell_linear::averaging::{Averaging, FastMotion, critical_amplitudes};
 use quell_model::Waveform;
@@ -107,8 +107,9 @@ fn system(keys: &str) -> String {
 
 /// The end of a run, time of its last event first.
 fn end(study: &BeltStudy, until: f64) -> [f64; 2] {
-    let run = simulate::run(study, until, simulate::Options::default()).expect("a run");
-    [run.end.displacement, run.end.velocity]
+    let system = moving_system(&study.into()).expect("a system");
+    let run = simulate::run(&system, &MotionRequest::to(until)).expect("a run");
+    [run.end.state[0], run.end.state[1]]
 }
 
 /// Noise is the sum of its lines: the same run as with a dither for each, in both engines.
@@ -135,11 +136,8 @@ fn noise_is_its_lines() {
     for until in [5.0, 40.0] {
         let (one, other) = (end(&noisy, until), end(&sines, until));
         assert_eq!(one, other, "τ = {until}");
-        let request = quell::run::system::simulate::MotionRequest {
-            until: Some(until),
-            ..Default::default()
-        };
-        let done = verbs(&Study::from(&as_system)).simulate_from(&request).expect("a run").json();
+        let request = MotionRequest::to(until);
+        let done = verbs(&Study::from(&as_system)).simulate(&request).expect("a run").json();
         let state = &done["final"];
         let x = state["state"][0].as_f64().or_else(|| state["displacements"][0].as_f64());
         let x = x.unwrap_or_else(|| panic!("{state}"));
@@ -259,7 +257,7 @@ fn noise_with_an_envelope() {
         .replace("[solver]", "[dither.envelope]\ntime = [0, 20]\nshare = [0, 1]\n[solver]");
     let study = Study::from(&study(&text));
     assert_eq!(study.varies_by(), Some("dither.envelope"));
-    verbs(&study).simulate(30.0, simulate::Options::default()).expect("a run");
+    verbs(&study).simulate(&MotionRequest::to(30.0)).expect("a run");
     verbs(&study).response_within((20.0, 40.0)).expect("a window");
     let half = study.at_time(10.0).expect("a moment");
     assert_eq!(half.belt().expect("a belt").belt().dithers()[0].amplitude, 1.5);

@@ -3,8 +3,7 @@
 //! Numbers: `reference/profiles.json` (source and tolerance in `reference/README.md`).
 
 use quell::kind::verbs;
-use quell::run::simulate::Options;
-use quell::run::system::simulate::MotionRequest;
+use quell::run::simulate::MotionRequest;
 use quell::study::Study;
 use serde_json::Value as Json;
 
@@ -25,17 +24,9 @@ fn refused(text: &str) -> String {
     wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
-/// The run of a belt or of a system, as its JSON.
-fn simulated(study: &Study, until: f64, is_system: bool) -> Json {
-    let verbs = verbs(study);
-    let answer = if is_system {
-        let request =
-            MotionRequest { until: Some(until), events: true, ..MotionRequest::default() };
-        verbs.simulate_from(&request)
-    } else {
-        verbs.simulate(until, Options { events: true, ..Options::default() })
-    };
-    answer.expect("a run").json()
+/// The run of a study, as its JSON.
+fn simulated(study: &Study, until: f64) -> Json {
+    verbs(study).simulate(&MotionRequest::to(until)).expect("a run").json()
 }
 
 #[test]
@@ -45,25 +36,14 @@ fn events_and_states_agree_with_independent_integrators() {
     assert_eq!(cases.len(), 12);
     for case in cases {
         let name = case["name"].as_str().expect("a name");
-        let is_system = case["system"] == true;
-        let run = simulated(
-            &study(case["study"].as_str().expect("text")),
-            number(&case["until"]),
-            is_system,
-        );
+        let run = simulated(&study(case["study"].as_str().expect("text")), number(&case["until"]));
         let events = run["events"].as_array().expect("events");
         assert_eq!(
             events.len() as u64,
             case["n_events"].as_u64().expect("a count"),
             "{name}: {run}"
         );
-        let state = |moment: &Json| -> [f64; 2] {
-            if is_system {
-                [number(&moment["state"][0]), number(&moment["state"][1])]
-            } else {
-                [number(&moment["displacement"]), number(&moment["velocity"])]
-            }
-        };
+        let state = |moment: &Json| [0, 1].map(|place| number(&moment["state"][place]));
         let agree = |[x, v]: [f64; 2], expected: &Json| {
             let scale = 1.0_f64.max(number(&expected["displacement"]).abs());
             (x - number(&expected["displacement"])).abs() < 1e-9 * scale
@@ -129,8 +109,8 @@ fn keys_in_si_give_the_same_run() {
         "[belt]\nmass_kg = 4\nstiffness_n_per_m = 100\ndamping_n_s_per_m = 2\n[belt.drive]\ntime_s = [0, 2, 8]\n\
          velocity_m_per_s = [1, 1, 0.5]\n[belt.load]\ntime_s = [0, 4]\nload_n = [100, 200]\n{law}"
     );
-    let run = |text: &str| simulated(&study(text), 60.0, false);
-    let (plain, si) = (run(&plain), run(&si));
+    let plain = simulated(&study(&plain), 60.0);
+    let si = simulated(&study(&si), 60.0 / 5.0);
     assert_eq!(plain["event_count"], si["event_count"]);
     for (a, b) in plain["events"]
         .as_array()
@@ -248,7 +228,7 @@ fn a_window_warns_as_the_run_does() {
         "[belt]\ndamping_ratio = 0.005\nnormal_load = 1\n[belt.drive]\ntime = [0, 50]\nvelocity = [0.3, 0.4]\n[friction]\n\
          law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n",
     );
-    let run = simulated(&study, 50.0, false);
+    let run = simulated(&study, 50.0);
     let window = verbs(&study).response_within((40.0, 50.0)).expect("a window").json();
     for answer in [run, window] {
         let warnings = answer["warnings"].to_string();
@@ -263,7 +243,7 @@ fn a_window_begins_as_the_run_does() {
         "[belt]\ndamping_ratio = 0.05\nnormal_load = 1\nbelt_velocity = 0.1\ntangential_stiffness = 20\n[belt.initial]\n\
          state = \"sliding\"\n[friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n",
     );
-    assert_eq!(simulated(&study, 20.0, false)["event_count"], 0);
+    assert_eq!(simulated(&study, 20.0)["event_count"], 0);
     let window = verbs(&study).response_within((0.0, 20.0)).expect("a window").json();
     assert!(number(&window["amplitude"]) < 1e-12, "{window}");
     assert!((number(&window["mean"]) - 0.3).abs() < 1e-12, "{window}");
@@ -278,7 +258,7 @@ fn intervals_of_short_runs_are_judged_by_an_oscillation_that_they_contain() {
              [contact.drive]\ntime = [0, 60, 150]\nvelocity = [0.1, 0.1, 0.4]\n[contact.friction]\nlaw = \"stribeck\"\n\
              static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n"
         );
-        simulated(&study(&text), 150.0, true)["manoeuvre"].clone()
+        simulated(&study(&text), 150.0)["manoeuvre"].clone()
     };
     let alone = run("\"mass\"", "mass = [1]\ndamping = [0.01]\nstiffness = [1]\n");
     let beside = run(

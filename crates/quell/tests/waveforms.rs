@@ -2,8 +2,9 @@
 //!
 //! Numbers: `reference/waveforms.json` (source and tolerance in `reference/README.md`).
 
-use quell::kind::{system_of, verbs};
+use quell::kind::{moving_system, system_of, verbs};
 use quell::run::orbit::Wanted;
+use quell::run::simulate::{MotionRequest, Simulation};
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::waveforms::WaveformComparison;
 use quell::run::{simulate, waveforms};
@@ -32,6 +33,12 @@ fn study(text: &str) -> BeltStudy {
     BeltStudy::parse(text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"))
 }
 
+/// The run of a belt from its start.
+fn simulated(study: &BeltStudy, until: f64) -> Simulation {
+    let system = moving_system(&study.into()).expect("a system");
+    simulate::run(&system, &MotionRequest::to(until)).unwrap_or_else(|why| panic!("{why}"))
+}
+
 fn refused(text: &str) -> String {
     let wrong = BeltStudy::parse(text, &[]).expect_err(text);
     wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
@@ -44,21 +51,20 @@ fn events_and_states_agree_with_independent_integrators() {
     assert_eq!(cases.len(), 9);
     for case in cases {
         let study = study(case["study"].as_str().expect("text"));
-        let options = simulate::Options { events: true, ..simulate::Options::default() };
-        let run = simulate::run(&study, number(&case["until"]), options).expect("a run");
-        let events = run.events.expect("events");
+        let run = simulated(&study, number(&case["until"]));
+        let events = &run.history.events;
         assert_eq!(run.end.events, case["n_events"].as_u64().expect("a count"), "{}", case["name"]);
         for (event, expected) in events.iter().zip(case["events"].as_array().expect("events")) {
             let kind = expected["kind"].as_str().expect("a kind");
             assert_eq!(event.kind.name(), kind, "{} {event:?}", case["name"]);
             assert!((event.time - number(&expected["time"])).abs() < 1e-9, "{event:?}: {expected}");
-            let moved = (event.displacement - number(&expected["displacement"])).abs();
+            let moved = (event.state[0] - number(&expected["displacement"])).abs();
             assert!(moved < 1e-9, "{event:?}: {expected}");
         }
         let end = &case["final"];
         let name = &case["name"];
-        assert!((run.end.displacement - number(&end["displacement"])).abs() < 1e-9, "{name}");
-        assert!((run.end.velocity - number(&end["velocity"])).abs() < 1e-9, "{name}");
+        assert!((run.end.state[0] - number(&end["displacement"])).abs() < 1e-9, "{name}");
+        assert!((run.end.state[1] - number(&end["velocity"])).abs() < 1e-9, "{name}");
     }
 }
 
@@ -133,16 +139,9 @@ fn a_burst_without_pause_has_the_answers_of_its_carrier() {
             .map(|keys| Study::parse(&format!("{SYSTEM}{keys}"), &[]).expect("a system"));
         let discs = [&burst, &named]
             .map(|keys| Study::parse(&format!("{DISC}{keys}"), &[]).expect("a disc"));
-        let runs = belts.each_ref().map(|study| {
-            let study = study.belt().expect("a belt");
-            simulate::run(
-                &study,
-                60.0,
-                simulate::Options { events: true, ..simulate::Options::default() },
-            )
-            .expect("a run")
-            .json(&study)
-        });
+        let runs = belts
+            .each_ref()
+            .map(|study| verbs(study).simulate(&MotionRequest::to(60.0)).expect("a run").json());
         assert_eq!(runs[0], runs[1], "{carrier}");
         let answers = |of: &Study| {
             let verbs = verbs(of);

@@ -115,19 +115,3 @@ pub(crate) fn pair(
     };
     Ok((read(from)?, read(to)?))
 }
-
-/// `X,V`, a state; displacement and velocity in SI, or with units, in a study in SI.
-pub(crate) fn state(
-    option: &'static str,
-    text: &str,
-    study: Option<&Study>,
-) -> Result<(f64, f64), Box<Complaint>> {
-    let Some((x, v)) = text.split_once(',') else {
-        let allowed = "two finite numbers x,v: displacement and velocity, such as 0.3,0";
-        return Err(Box::new(Complaint::option(option, text, allowed)));
-    };
-    let scales = scales(study);
-    let x = quantity::parse(x, Quantity::Displacement, scales, option)?;
-    let v = quantity::parse(v, Quantity::Velocity, scales, option)?;
-    Ok((x, v))
-}

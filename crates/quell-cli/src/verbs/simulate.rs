@@ -4,15 +4,13 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 use quell::kind::{moving_system, verbs};
-use quell::run::simulate::{Options, Start};
-use quell::run::system::simulate::MotionRequest;
+use quell::run::simulate::MotionRequest;
 use quell::run::system::start::{duration as duration_of_motion, read_state};
 use quell::sound::SoundOptions;
-use quell::study::SystemStudy;
-use quell::{Complaint, Failure, Fault, Origin, Study};
-use serde_json::Value as Json;
+use quell::study::{SystemStudy, UnitSystem};
+use quell::{Complaint, Failure, Fault, Origin};
 
-use super::numbers::{duration, scales, state};
+use super::numbers::duration;
 use crate::answer::Answer;
 use crate::arguments::{
     Gathered, Outputs, Plot, PlotArguments, StudyArguments, WAV, answer, inputs,
@@ -24,11 +22,11 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Duration: τ of a belt, time in the units of a system, or in 1/ω_ref of a disc; in a study in SI in seconds, or a time such as
-    /// 50ms [default: 100 periods of the slowest oscillation of a system; of a disc, until a small motion has grown]
+    /// 50ms [default: 100 periods of the slowest oscillation; of a disc, until a small motion has grown]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
-    /// Start of a system: numbers that replace those of the study's start, such as x=0.1,velocity.x=-2; of a disc, numbers that
-    /// replace those of rest, such as A2=0.1; of a belt, the state x,v, such as 0.3,0
+    /// Numbers that replace those of the study's start, such as x=0.1,velocity.x=-2, of one coordinate also x,v, such as 0.3,0; of a
+    /// disc, numbers that replace those of rest, such as A2=0.1
     #[arg(long, value_name = "NAME=VALUE,…|X,V", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     start: Option<String>,
     /// Lists every event; with --save FILE.csv also writes them to a second file, such as run_events.csv next to run.csv
@@ -56,7 +54,7 @@ struct SoundArguments {
 
 impl SoundArguments {
     /// The options of the sound, if one is saved.
-    fn read(&self, saved: bool, study: Option<&Study>) -> Result<Option<SoundOptions>, Failure> {
+    fn read(&self, saved: bool, units: UnitSystem) -> Result<Option<SoundOptions>, Failure> {
         let mut complaints = Gathered::default();
         let mut options = SoundOptions::default();
         if let Some(text) = &self.transpose {
@@ -66,7 +64,7 @@ impl SoundArguments {
         }
         if let Some(text) = &self.gain {
             needs_sound("--gain", text, saved, &mut complaints);
-            options.gain = complaints.take(SoundOptions::gain(text, scales(study)));
+            options.gain = complaints.take(SoundOptions::gain(text, units));
         }
         complaints.finish(Some(saved.then_some(options)))
     }
@@ -82,7 +80,7 @@ fn needs_sound(option: &'static str, text: &str, saved: bool, complaints: &mut G
 }
 
 impl Arguments {
-    /// The run of a system or a disc.
+    /// The run of a study whose motion is that of this system.
     fn request(&self, study: &SystemStudy, samples: bool) -> Result<MotionRequest, Failure> {
         let mut complaints = Gathered::default();
         let read = |text: &str| duration_of_motion(study, text, "--until");
@@ -99,25 +97,11 @@ impl Arguments {
         })
     }
 
-    /// The duration of the run of a belt, which must be given, and its start.
-    fn run_of_belt(&self, study: &Study) -> Result<(f64, Option<Start>), Failure> {
-        let mut complaints = Gathered::default();
-        let begin = self.start.as_deref().map(|text| state("--start", text, Some(study)));
-        let begin = complaints.take(begin.transpose());
-        let until = match &self.until {
-            Some(text) => duration("--until", text, Some(study)),
-            None => Err(Box::new(Complaint::new(
-                Fault::Missing,
-                "--until",
-                Origin::Argument("--until"),
-                Json::Null,
-                "a duration, such as 50",
-            ))),
-        };
-        let until = complaints.take(until);
-        let (until, begin) = complaints.finish(until.zip(begin))?;
-        let begin = begin.map(|(x, v)| Start { time: 0.0, displacement: x, velocity: v });
-        Ok((until, begin))
+    /// What can be examined without a study: the duration.
+    fn examined(&self) -> Result<MotionRequest, Failure> {
+        let until =
+            self.until.as_deref().map(|text| duration("--until", text, None)).transpose()?;
+        Ok(MotionRequest { until, ..MotionRequest::default() })
     }
 }
 
@@ -129,39 +113,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let save = arguments.save.as_deref();
     let extension = save.and_then(|path| path.extension()?.to_str());
     let is_sound = extension.is_some_and(|extension| extension.eq_ignore_ascii_case(WAV));
-    let sound = complaints.take(arguments.sound.read(is_sound, study.as_ref()));
+    let moving = complaints.take(study.as_ref().map(moving_system).transpose()).flatten();
+    let units = moving.as_ref().map_or(UnitSystem::None, SystemStudy::units);
+    let sound = complaints.take(arguments.sound.read(is_sound, units));
     let parts: &[&str] = if arguments.events && !is_sound { &["events"] } else { &[] };
     let outputs = complaints.take(Outputs::prepare(save, &[WAV], parts, &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    if let Some((study, system)) =
-        study.as_ref().and_then(|study| Some((study, moving_system(study)?)))
-    {
-        let sampled = save.is_some() && !is_sound || plot.as_ref().is_some_and(Plot::wanted);
-        let request = complaints.take(arguments.request(&system, sampled));
-        let ((request, sound), (outputs, plot)) =
-            complaints.finish(request.zip(sound).zip(outputs.zip(plot)))?;
-        let request = MotionRequest { sound, ..request };
-        let done = verbs(study).simulate_from(&request)?;
-        return answer(arguments.study.json, done.as_ref(), outputs, plot);
-    }
-    let until = if let Some(study) = study.as_ref() {
-        complaints.take(arguments.run_of_belt(study))
-    } else {
-        // Which options apply depends on the kind of the study, which is unknown: only what is given is examined.
-        let given = arguments.until.as_deref().map(|text| duration("--until", text, None));
-        complaints.take(given.transpose()).map(|until| (until.unwrap_or_default(), None))
+    let sampled = save.is_some() && !is_sound || plot.as_ref().is_some_and(Plot::wanted);
+    let request = match &moving {
+        Some(system) => complaints.take(arguments.request(system, sampled)),
+        None => complaints.take(arguments.examined()),
     };
-    let ((study, (until, start)), (sound, (outputs, plot))) =
-        complaints.finish(study.zip(until).zip(sound.zip(outputs.zip(plot))))?;
-
-    let options = Options {
-        start,
-        times: None,
-        events: arguments.events,
-        samples: save.is_some() && sound.is_none() || plot.wanted(),
-        undithered: plot.wanted(),
-        sound,
-    };
-    let done = verbs(&study).simulate(until, options)?;
+    let ((study, request), (sound, (outputs, plot))) =
+        complaints.finish(study.zip(request).zip(sound.zip(outputs.zip(plot))))?;
+    let request = MotionRequest { sound, undithered: plot.wanted(), ..request };
+    let done = verbs(&study).simulate(&request)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

@@ -192,7 +192,7 @@ impl ChangeSeries {
 
 impl ChangeStep<'_> {
     fn tilts(&self, since: f64) -> Vec<f64> {
-        let contacts = self.segment.contacts.iter();
+        let contacts = (0..self.segment.now.len()).map(|contact| self.segment.contact(contact));
         contacts.map(|contact| horner(&contact.tilt, since)).collect()
     }
 }
@@ -285,7 +285,7 @@ impl ChangeExpansion<'_> {
         let ChangeStep { equations, segment, now } = self.step;
         let interval = self.interval;
         for (index, contact) in self.series.contacts.iter_mut().enumerate() {
-            let (equation, along) = (&equations.contacts[index], &segment.contacts[index]);
+            let (equation, along) = (&equations.contacts[index], segment.contact(index));
             contact.phase = now[index].phase;
             contact.is_free = now[index].sticks() && now[index].saturated == 0;
             (contact.by_slip.1, contact.by_load.1) = (0, 0);

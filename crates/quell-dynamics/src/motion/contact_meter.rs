@@ -2,15 +2,19 @@
 
 use std::sync::LazyLock;
 
-use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::gauss_legendre::GaussLegendre;
+use quell_numerics::lane::{Lane, MOST_LANES};
 
-use super::observer::{MotionObserver, MotionSegment};
+use super::observer::{MotionObserver, MotionSegment, SegmentSeries};
 use super::phase::ContactPhase;
-use crate::simulation::{ORDER, RECIPROCALS, Series, horner_at};
+use crate::simulation::{ORDER, RECIPROCALS, Series};
 
-/// Nodes of the rule on a segment: it is exact for the product of two of its series.
-const NODES: usize = ORDER + 1;
+/// Nodes of the rule on a segment. It is exact up to degree 2·14 − 1 in the product of two series, each of which is cut at [`ORDER`]:
+/// the terms of the product from there on are below those that the series leave out.
+const NODES: usize = 14;
+
+const _: () = assert!(2 * NODES > ORDER + 1, "no term is lost that the series have");
 
 /// Nodes and weights on [0, 1].
 pub(super) static RULE: LazyLock<[[f64; NODES]; 2]> =
@@ -62,12 +66,14 @@ impl ContactSums {
 pub struct ContactMeter {
     length: f64,
     sums: Vec<ContactSums>,
+    set: InstructionSet,
 }
 
 impl ContactMeter {
     /// A meter of a motion with `contacts` contacts.
     pub fn new(contacts: usize) -> Self {
-        Self { length: 0.0, sums: vec![ContactSums::NONE; contacts] }
+        let set = InstructionSet::widest();
+        Self { length: 0.0, sums: vec![ContactSums::NONE; contacts], set }
     }
 
     /// The time measured so far.
@@ -98,7 +104,7 @@ impl ContactMeter {
 impl MotionObserver for ContactMeter {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
         self.length += segment.duration();
-        with_fused_multiply_add(ContactsOnSegment { sums: &mut self.sums, segment });
+        with_lanes(self.set, ContactsOnSegment { sums: &mut self.sums, segment });
     }
 }
 
@@ -107,14 +113,14 @@ struct ContactsOnSegment<'a, 'b> {
     segment: &'a MotionSegment<'b>,
 }
 
-impl Work for ContactsOnSegment<'_, '_> {
+impl LaneWork for ContactsOnSegment<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Lane>(self) {
         let Self { sums, segment } = self;
         let duration = segment.duration();
-        let moments = moments_of(duration);
+        let moments = PLACES.map(|place| place * duration);
         for (contact, sums) in sums.iter_mut().enumerate() {
             match segment.phase(contact) {
                 ContactPhase::Open => {
@@ -125,7 +131,7 @@ impl Work for ContactsOnSegment<'_, '_> {
                 ContactPhase::Stick => sums.stick += duration,
                 ContactPhase::Slip(_) => {}
             }
-            sums.add_closed(segment, contact, &moments);
+            sums.add_closed::<V>(segment, contact, &moments);
         }
     }
 }
@@ -133,34 +139,37 @@ impl Work for ContactsOnSegment<'_, '_> {
 impl ContactSums {
     /// Friction and load of a closed contact, its largest slip speed, and the work of friction.
     #[inline(always)]
-    fn add_closed(&mut self, segment: &MotionSegment<'_>, contact: usize, moments: &NodeTimes) {
+    fn add_closed<V: Lane>(&mut self, segment: &MotionSegment<'_>, contact: usize, at: &NodeTimes) {
         let duration = segment.duration();
-        let (friction, load) = (segment.friction(contact), segment.normal_load(contact));
-        self.friction += integral(friction, duration);
-        if load[1..].iter().all(|term| *term == 0.0) {
+        let load = segment.normal_load(contact);
+        let loads = if load[1..].iter().all(|term| *term == 0.0) {
             self.load += load[0] * duration;
             self.least_load = lesser(self.least_load, load[0]);
+            [load[0]; MOMENTS]
         } else {
-            self.load += integral(load, duration);
-            self.least_load = values_at(load, moments).into_iter().fold(self.least_load, lesser);
-        }
+            let loads = values_at::<V>(load, at);
+            self.load = f64::mul_add(duration, mean_of(&loads), self.load);
+            self.least_load = loads.into_iter().fold(self.least_load, lesser);
+            loads
+        };
         // The spring of an elastic slider that adheres takes and returns work.
         if segment.is_held(contact) {
+            let forces = values_at::<V>(segment.friction(contact), at);
+            self.friction = f64::mul_add(duration, mean_of(&forces), self.friction);
             return;
         }
-        let slips = values_at(segment.slip_velocity(contact), moments);
+        let slips = values_at::<V>(segment.slip_velocity(contact), at);
+        let mut forces = match segment.series {
+            SegmentSeries::Known { .. } => values_at::<V>(segment.friction(contact), at),
+            SegmentSeries::OfMass(piece) => piece.frictions_at(&slips, &loads),
+        };
+        self.friction = f64::mul_add(duration, mean_of(&forces), self.friction);
         if matches!(segment.phase(contact), ContactPhase::Slip(_)) {
-            for slip in slips {
-                if slip.abs() > self.largest_slip {
-                    self.largest_slip = slip.abs();
-                }
-            }
+            self.largest_slip =
+                slips.iter().fold(self.largest_slip, |most, slip| greater(most, slip.abs()));
         }
-        let forces = values_at(friction, moments);
-        let rule = RULE[1].iter().zip(forces.iter().zip(&slips));
-        for (weight, (force, slip)) in rule {
-            self.work = f64::mul_add(weight * duration, force * slip, self.work);
-        }
+        forces.iter_mut().zip(&slips).for_each(|(force, slip)| *force *= slip);
+        self.work = f64::mul_add(duration, mean_of(&forces), self.work);
     }
 }
 
@@ -170,35 +179,56 @@ fn lesser(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
 
+/// The greater of two numbers, neither of which is NaN.
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
 /// The nodes of the rule on a segment, and its ends.
 type NodeTimes = [f64; MOMENTS];
 
-/// A multiple of the moments of a group.
-const MOMENTS: usize = 20;
+/// As many as the widest lanes, or a multiple.
+const MOMENTS: usize = MOST_LANES;
 
-/// As many moments as a vector holds.
-const GROUP: usize = 4;
+const _: () = assert!(MOMENTS == NODES + 2, "the nodes and both ends");
 
-const _: () = assert!(MOMENTS >= NODES + 2, "the nodes and both ends");
+/// The nodes on [0, 1], and its ends, which have no weight.
+static PLACES: LazyLock<NodeTimes> = LazyLock::new(|| with_ends(&RULE[0], [0.0, 1.0]));
+static WEIGHTS: LazyLock<NodeTimes> = LazyLock::new(|| with_ends(&RULE[1], [0.0, 0.0]));
 
-/// The moments of a segment.
-#[inline(always)]
-fn moments_of(duration: f64) -> NodeTimes {
-    let mut moments = [duration; MOMENTS];
-    moments[NODES] = 0.0;
-    for (moment, node) in moments.iter_mut().zip(&RULE[0]) {
-        *moment = node * duration;
-    }
-    moments
+fn with_ends(of_nodes: &[f64; NODES], of_ends: [f64; 2]) -> NodeTimes {
+    let mut all = [0.0; MOMENTS];
+    all.iter_mut().zip(of_nodes.iter().chain(&of_ends)).for_each(|(all, number)| *all = *number);
+    all
 }
 
-/// A Taylor polynomial at all moments at once.
+/// Mean over a segment of what is known at its moments.
 #[inline(always)]
-fn values_at(series: &Series, moments: &NodeTimes) -> NodeTimes {
+fn mean_of(values: &NodeTimes) -> f64 {
+    // Sums that do not wait for each other, the same ones in lanes of any width.
+    let mut sums = [0.0; 4];
+    let weights = WEIGHTS.as_chunks::<4>().0;
+    for (values, weights) in values.as_chunks::<4>().0.iter().zip(weights) {
+        for place in 0..4 {
+            sums[place] = f64::mul_add(values[place], weights[place], sums[place]);
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// A Taylor polynomial at all moments.
+#[inline(always)]
+fn values_at<V: Lane>(series: &Series, moments: &NodeTimes) -> NodeTimes {
     let mut values = [0.0; MOMENTS];
-    let (groups, _) = values.as_chunks_mut::<GROUP>();
-    for (group, moments) in groups.iter_mut().zip(moments.as_chunks::<GROUP>().0) {
-        *group = horner_at(series, moments);
+    let groups = values.chunks_exact_mut(V::LANES).zip(moments.chunks_exact(V::LANES));
+    for (values, moments) in groups {
+        let since = V::load(moments);
+        let mut value = V::splat(0.0);
+        for coefficient in series.iter().rev() {
+            value = value.mul_add(since, V::splat(*coefficient));
+        }
+        value.store(values);
     }
     values
 }

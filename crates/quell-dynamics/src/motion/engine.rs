@@ -6,7 +6,7 @@ use quell_model::friction::FrictionConstants;
 use super::equations::{Forcings, MotionEquations};
 use super::expansion::{ExpandedStep, StepExpansion};
 use super::guards::Guards;
-use super::observer::{MotionObserver, MotionSegment};
+use super::observer::{MotionObserver, MotionSegment, SegmentSeries};
 use super::own_state;
 use super::phase::{ContactNow, ContactPhase};
 use super::selection::first_minor_not_positive;
@@ -332,8 +332,10 @@ impl<'a> MotionRun<'a> {
                 clock: self.clock,
                 duration,
                 size: self.equations.size,
-                states: &self.series.states,
-                contacts: &self.series.contacts,
+                series: SegmentSeries::Known {
+                    states: &self.series.states,
+                    contacts: &self.series.contacts,
+                },
                 now: &self.now,
             });
         }

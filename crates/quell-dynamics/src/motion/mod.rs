@@ -45,6 +45,7 @@ mod input_meter;
 mod lanes;
 mod law_along_slip;
 mod lyapunov;
+mod mass_piece;
 mod observer;
 mod one_mass;
 pub mod orbit;
@@ -163,7 +164,7 @@ impl<'s> Motion<'s> {
     /// the contacts ([`Contact::has_state`](quell_model::Contact::has_state)).
     pub fn size(&self) -> usize {
         match &self.engine {
-            MotionEngine::OneMass(..) => one_mass::SIZE,
+            MotionEngine::OneMass(..) => mass_piece::SIZE,
             MotionEngine::General(equations) => equations.size,
         }
     }
@@ -171,7 +172,7 @@ impl<'s> Motion<'s> {
     /// Length of the state of the structure.
     pub fn structure_size(&self) -> usize {
         match &self.engine {
-            MotionEngine::OneMass(..) => one_mass::SIZE,
+            MotionEngine::OneMass(..) => mass_piece::SIZE,
             MotionEngine::General(equations) => equations.structure_size,
         }
     }
@@ -219,14 +220,18 @@ impl<'s> Motion<'s> {
     }
 
     /// The bound on the last terms of a step for runs from which no periodic motion is computed: [`MOTION_TOLERANCE`], of a system of one
-    /// mass that of a belt ([`DEFAULT_TOLERANCE`]).
-    pub fn run_tolerance(&self) -> f64 {
-        if self.one_mass().is_some() { one_mass::RUN_TOLERANCE } else { MOTION_TOLERANCE }
+    /// mass that of a belt ([`DEFAULT_TOLERANCE`]); or `asked`, relative to the load, of other systems where it is smaller.
+    pub fn run_tolerance(&self, asked: Option<f64>) -> f64 {
+        let bound = self.bound_of_runs(asked);
+        if self.one_mass().is_some() { bound / one_mass::OF_THE_LOAD } else { bound }
     }
 
     /// What [`Motion::run_tolerance`] bounds: the last terms over the numbers of the state, or of one mass over the load.
-    pub fn bound_of_runs(&self) -> f64 {
-        if self.one_mass().is_some() { DEFAULT_TOLERANCE } else { MOTION_TOLERANCE }
+    pub fn bound_of_runs(&self, asked: Option<f64>) -> f64 {
+        match self.one_mass() {
+            Some(_) => asked.unwrap_or(DEFAULT_TOLERANCE),
+            None => asked.map_or(MOTION_TOLERANCE, |asked| asked.min(MOTION_TOLERANCE)),
+        }
     }
 
     /// Integrates from `start` to t = `until` and passes every segment and event to `observer`.

@@ -5,6 +5,7 @@ use quell_numerics::lane::horner;
 
 use super::contact_series::ContactSeries;
 use super::extremes::turning_points;
+use super::mass_piece::MassPiece;
 use super::phase::{ContactNow, ContactPhase};
 use super::rows::RowEntries;
 use super::series::horner_states;
@@ -18,9 +19,17 @@ pub struct MotionSegment<'a> {
     pub(super) clock: Clock,
     pub(super) duration: f64,
     pub(super) size: usize,
-    pub(super) states: &'a [f64],
-    pub(super) contacts: &'a [ContactSeries],
+    pub(super) series: SegmentSeries<'a>,
     pub(super) now: &'a [ContactNow],
+}
+
+/// Where the series of a segment are.
+#[derive(Clone, Copy)]
+pub(super) enum SegmentSeries<'a> {
+    /// In the memory of an engine.
+    Known { states: &'a [f64], contacts: &'a [ContactSeries] },
+    /// Of a slipping mass: computed where they are asked for.
+    OfMass(&'a MassPiece<'a>),
 }
 
 impl<'a> MotionSegment<'a> {
@@ -47,18 +56,37 @@ impl<'a> MotionSegment<'a> {
 
     /// Taylor coefficients of every number of the state, order by order.
     pub fn states(&self) -> &'a [f64] {
-        &self.states[..(ORDER + 1) * self.size]
+        match self.series {
+            SegmentSeries::Known { states, .. } => &states[..(ORDER + 1) * self.size],
+            SegmentSeries::OfMass(piece) => piece.states(),
+        }
+    }
+
+    /// All series of a contact.
+    pub(super) fn contact(&self, contact: usize) -> &'a ContactSeries {
+        match self.series {
+            SegmentSeries::Known { contacts, .. } => &contacts[contact],
+            SegmentSeries::OfMass(piece) => piece.complete(),
+        }
+    }
+
+    /// The series of a contact that do not depend on its law: slip, surface and load.
+    fn guided(&self, contact: usize) -> &'a ContactSeries {
+        match self.series {
+            SegmentSeries::Known { contacts, .. } => &contacts[contact],
+            SegmentSeries::OfMass(piece) => piece.contact,
+        }
     }
 
     /// Writes the state at time `since` after its start, 0 ≤ `since` ≤ its duration, to `out`.
     pub fn state(&self, since: f64, out: &mut [f64]) {
-        with_fused_multiply_add(StateAt { states: self.states, since, out });
+        with_fused_multiply_add(StateAt { states: self.states(), since, out });
     }
 
     /// One number of the state at time `since` after its start.
     pub(super) fn number(&self, place: usize, since: f64) -> f64 {
         let mut series = [0.0; ORDER + 1];
-        for (coefficient, state) in series.iter_mut().zip(self.states.chunks(self.size)) {
+        for (coefficient, state) in series.iter_mut().zip(self.states().chunks(self.size)) {
             *coefficient = state[place];
         }
         Self::value(&series, since)
@@ -66,23 +94,23 @@ impl<'a> MotionSegment<'a> {
 
     /// Taylor coefficients of the slip velocity γ of a contact; zero where a rigid contact sticks.
     pub fn slip_velocity(&self, contact: usize) -> &'a [f64; ORDER + 1] {
-        &self.contacts[contact].slip
+        &self.guided(contact).slip
     }
 
     /// Taylor coefficients of the velocity of the surface of a contact.
     pub fn surface(&self, contact: usize) -> &'a [f64; ORDER + 1] {
-        &self.contacts[contact].surface
+        &self.guided(contact).surface
     }
 
     /// Taylor coefficients of the friction force T of a contact; zero where it is open.
     pub fn friction(&self, contact: usize) -> &'a [f64; ORDER + 1] {
-        &self.contacts[contact].friction
+        &self.contact(contact).friction
     }
 
     /// Taylor coefficients of the normal load N of a contact; where it is open those of the load that it would have, which is
     /// negative.
     pub fn normal_load(&self, contact: usize) -> &'a [f64; ORDER + 1] {
-        &self.contacts[contact].load
+        &self.guided(contact).load
     }
 
     /// Taylor coefficients of a row times the part of the state that begins at `from`: 0 for displacements or the states of
@@ -95,7 +123,7 @@ impl<'a> MotionSegment<'a> {
     #[inline(always)]
     pub(super) fn row_of(&self, row: &RowEntries) -> Series {
         let mut series = [0.0; ORDER + 1];
-        for (coefficient, state) in series.iter_mut().zip(self.states.chunks(self.size)) {
+        for (coefficient, state) in series.iter_mut().zip(self.states().chunks(self.size)) {
             *coefficient = row.dot(state);
         }
         series
@@ -353,8 +381,18 @@ impl MotionSampler {
         self.push(end.time, end);
     }
 
-    /// Adds the remaining samples after a run at given times: those of its last moment may round to just after the end.
+    /// Completes the samples of a run at given times: those of its last moment are its end, and may round to just after it.
     pub fn finish(&mut self, end: &MotionEnd) {
+        let contacts = end.contacts.len();
+        while self.times.last() == Some(&end.time) {
+            self.times.pop();
+            let count = self.times.len();
+            self.states.truncate(count * end.state.len());
+            self.phases.truncate(count * contacts);
+            for values in [&mut self.slip_velocities, &mut self.friction, &mut self.normal_loads] {
+                values.truncate(count * contacts);
+            }
+        }
         while let Some(time) = self.wanted.get(self.times.len()) {
             self.push(time, end);
         }

@@ -3,6 +3,8 @@
 //! The engine for one mass knows stick in closed form, for as long as it lasts. Here it is shown in pieces, each a Taylor series with
 //! the friction that holds the mass, so that one kind of observer sees every motion. What a run computes depends on no observer.
 
+use std::cell::{OnceCell, RefCell};
+
 use quell_model::friction::FrictionConstants;
 use quell_model::{Belt, Direction, OneMass};
 use quell_numerics::dispatch::{InstructionSet, Work, with_fused_multiply_add};
@@ -10,8 +12,9 @@ use quell_numerics::matrix::Matrix;
 use quell_numerics::polynomial::{derivative, step_length, value};
 
 use super::contact_series::ContactSeries;
+use super::mass_piece::{MassPiece, MassStates, SIZE};
 use super::observer::{
-    MotionEvent, MotionMoment, MotionObserver, MotionSegment, RecordedEvent, Trigger,
+    MotionEvent, MotionMoment, MotionObserver, MotionSegment, RecordedEvent, SegmentSeries, Trigger,
 };
 use super::own_state::law_of;
 use super::phase::{ContactNow, ContactPhase};
@@ -19,13 +22,9 @@ use super::state::{ContactEnd, MotionEnd, MotionStart};
 use super::stopped::{MotionStopped, StopReason};
 use crate::orbit::Variation;
 use crate::simulation::{
-    Clock, DEFAULT_TOLERANCE, Event, EventKind, EventRecorder, FinalState, Forcing, ORDER,
-    Observer, Segment, Series, SimulationRun, Stalled, Start, continue_slip, simulate,
-    simulate_many_with,
+    Clock, Event, EventKind, EventRecorder, FinalState, Forcing, ORDER, Observer, Segment, Series,
+    SimulationRun, Stalled, Start, continue_slip, simulate, simulate_many_with,
 };
-
-/// Length of the state.
-pub(super) const SIZE: usize = 2;
 
 /// Slip velocities below this multiple of their rounding are zero at the start of a run, as for systems in general: a state of stick that
 /// a search has computed comes to rest. With a much larger value a start that slips would stick.
@@ -114,10 +113,7 @@ pub(super) fn shoot_mass(
 
 /// Bound on the last terms of a step relative to F, over that relative to the numbers of the state: with it judges run one mass at 10⁻¹⁴
 /// of the load, as the orbits of belts are computed. With 1 the period of a limit cycle was 7·10⁻¹² off.
-const OF_THE_LOAD: f64 = 0.1;
-
-/// A bound for runs that no periodic motion is computed from.
-pub(super) const RUN_TOLERANCE: f64 = DEFAULT_TOLERANCE / OF_THE_LOAD;
+pub(super) const OF_THE_LOAD: f64 = 0.1;
 
 /// Integrates runs of systems of one mass side by side. The results are in the order of the runs.
 pub(super) fn run_masses(
@@ -232,13 +228,13 @@ struct MassView<'a> {
     units: MassUnits<'a>,
     start: Start,
     observer: &'a mut dyn MotionObserver,
-    law: FrictionConstants,
+    law: RefCell<FrictionConstants>,
     /// Length unit of the engine: the law's velocity scale.
     unit: f64,
     tangential: Forcing,
     normal: Forcing,
     /// The series of the last piece, and its end.
-    states: [f64; (ORDER + 1) * SIZE],
+    states: MassStates,
     contact: ContactSeries,
     now: ContactNow,
     ended: (Clock, f64),
@@ -262,7 +258,7 @@ impl<'a> MassView<'a> {
         let mut view = Self {
             start,
             observer,
-            law: law_of(belt.friction()),
+            law: RefCell::new(law_of(belt.friction())),
             unit,
             tangential,
             normal,
@@ -297,18 +293,35 @@ impl<'a> MassView<'a> {
         phase_of(i8::from(direction > 0.0) - i8::from(direction < 0.0))
     }
 
-    /// Passes on a piece whose series have been written.
-    fn emit(&mut self, clock: Clock, duration: f64) {
-        let rate = self.units.mass.rate();
-        self.ended = (clock.after(duration), duration / rate);
-        self.observer.segment(&MotionSegment {
-            clock: self.units.clock(clock),
-            duration: duration / rate,
-            size: SIZE,
+    /// Passes on a piece of stick, whose series have been written.
+    fn emit_stick(&mut self, clock: Clock, duration: f64) {
+        let series = SegmentSeries::Known {
             states: &self.states,
             contacts: std::slice::from_ref(&self.contact),
-            now: std::slice::from_ref(&self.now),
-        });
+        };
+        self.ended = (clock.after(duration), duration / self.units.mass.rate());
+        let segment = Shown { clock, duration, series, now: &self.now };
+        self.observer.segment(&segment.in_units(self.units));
+    }
+
+    /// Passes on a step of slip.
+    fn emit_slip(&mut self, segment: &Segment<'_>) {
+        let (clock, duration) = (segment.clock(), segment.duration());
+        let piece = MassPiece {
+            mass: self.units.mass,
+            raw: segment.series(),
+            unit: self.unit,
+            rates: &self.rates,
+            sign: f64::from(self.now.phase.slip_sign()),
+            law: &self.law,
+            contact: &self.contact,
+            states: OnceCell::new(),
+            complete: OnceCell::new(),
+        };
+        self.ended = (clock.after(duration), duration / self.units.mass.rate());
+        let segment =
+            Shown { clock, duration, series: SegmentSeries::OfMass(&piece), now: &self.now };
+        self.observer.segment(&segment.in_units(self.units));
     }
 
     /// The rate at which the guard that ended the last piece reached zero.
@@ -331,18 +344,17 @@ impl Observer for MassView<'_> {
         let (mut clock, mut rest) = (segment.clock(), segment.duration());
         if segment.slip_sign() != 0 {
             self.pass_breaks(clock);
-            with_fused_multiply_add(Shown { view: self, clock, piece: MassPiece::Slip(segment) });
-            self.emit(clock, rest);
+            with_fused_multiply_add(SlipWritten { view: self, clock, slip: segment.series().1 });
+            self.emit_slip(segment);
             return;
         }
         let mut displacement = segment.displacement(0.0);
         while rest > 0.0 {
             self.pass_breaks(clock);
             let room = clock.until(self.tangential.next_break().min(self.normal.next_break()));
-            let piece = MassPiece::Stick { displacement };
-            let longest = with_fused_multiply_add(Shown { view: self, clock, piece });
+            let longest = with_fused_multiply_add(StickWritten { view: self, clock, displacement });
             let duration = longest.min(room).min(rest);
-            self.emit(clock, duration);
+            self.emit_stick(clock, duration);
             displacement =
                 f64::mul_add(self.units.mass.belt().belt_velocity(), duration, displacement);
             clock = clock.after(duration);
@@ -403,51 +415,79 @@ impl MassView<'_> {
     }
 }
 
-/// A piece whose series are to be written.
-enum MassPiece<'p, 's> {
-    /// A step of slip.
-    Slip(&'p Segment<'s>),
-    /// Stick from a displacement on.
-    Stick { displacement: f64 },
+/// A piece in the time of the belt.
+struct Shown<'p> {
+    clock: Clock,
+    duration: f64,
+    series: SegmentSeries<'p>,
+    now: &'p ContactNow,
 }
 
-/// Writes the series of a piece. Returns how long a piece of stick they describe, in the time of the belt.
-struct Shown<'v, 'a, 'p, 's> {
+impl<'p> Shown<'p> {
+    fn in_units(self, units: MassUnits<'_>) -> MotionSegment<'p> {
+        MotionSegment {
+            clock: units.clock(self.clock),
+            duration: self.duration / units.mass.rate(),
+            size: SIZE,
+            series: self.series,
+            now: std::slice::from_ref(self.now),
+        }
+    }
+}
+
+/// Writes load and slip of a step of slip.
+struct SlipWritten<'v, 'a, 's> {
     view: &'v mut MassView<'a>,
     clock: Clock,
-    piece: MassPiece<'p, 's>,
+    slip: &'s [f64],
 }
 
-impl Work for Shown<'_, '_, '_, '_> {
+impl Work for SlipWritten<'_, '_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { view, clock, slip } = self;
+        view.load(clock, view.unit * view.units.mass.force());
+        let (contact, unit) = (&mut view.contact, view.unit);
+        // A step of slip has all terms; with a known number of them the compiler needs no checks.
+        let Some(slip) = slip.first_chunk::<{ ORDER + 1 }>() else { return };
+        for (scaled, (slip, rate)) in contact.scaled.iter_mut().zip(slip.iter().zip(&view.rates)) {
+            *scaled = slip * rate;
+        }
+        contact.slip = contact.scaled.map(|term| unit * term);
+    }
+}
+
+/// Writes the series of stick from a displacement on. Returns how long a piece they describe, in the time of the belt.
+struct StickWritten<'v, 'a> {
+    view: &'v mut MassView<'a>,
+    clock: Clock,
+    displacement: f64,
+}
+
+impl Work for StickWritten<'_, '_> {
     type Output = f64;
 
     #[inline(always)]
     fn run(self) -> f64 {
-        let Self { view, clock, piece } = self;
+        let Self { view, clock, displacement } = self;
         let belt = view.units.mass.belt();
-        let (unit, force) = (view.unit, view.unit * view.units.mass.force());
-        let load = view.load(clock, force);
-        match piece {
-            MassPiece::Slip(segment) => {
-                view.show_slip(segment.series());
-                f64::INFINITY
-            }
-            MassPiece::Stick { displacement } => {
-                let velocity = belt.belt_velocity();
-                let dither = view.tangential.series(clock);
-                let damper = 2.0 * belt.damping_ratio() * velocity;
-                let mut friction = dither.map(|term| -unit * term);
-                friction[0] += damper + displacement;
-                friction[1] += velocity;
-                view.show_stick(displacement, &friction);
-                let size = friction.iter().take(2).fold(belt.normal_load(), |a, b| a.max(b.abs()));
-                let last = |k: usize| {
-                    let load = load.as_ref().map_or(0.0, |load| unit * load[k]);
-                    friction[k].abs() + load.abs()
-                };
-                step_length(NEGLIGIBLE * size, last(ORDER), last(ORDER - 1), ORDER)
-            }
-        }
+        let unit = view.unit;
+        let load = view.load(clock, unit * view.units.mass.force());
+        let velocity = belt.belt_velocity();
+        let dither = view.tangential.series(clock);
+        let damper = 2.0 * belt.damping_ratio() * velocity;
+        let mut friction = dither.map(|term| -unit * term);
+        friction[0] += damper + displacement;
+        friction[1] += velocity;
+        view.show_stick(displacement, &friction);
+        let size = friction.iter().take(2).fold(belt.normal_load(), |a, b| a.max(b.abs()));
+        let last = |k: usize| {
+            let load = load.as_ref().map_or(0.0, |load| unit * load[k]);
+            friction[k].abs() + load.abs()
+        };
+        step_length(NEGLIGIBLE * size, last(ORDER), last(ORDER - 1), ORDER)
     }
 }
 
@@ -464,34 +504,6 @@ impl MassView<'_> {
         self.contact.given = self.contact.load;
         self.contact.pressed = self.contact.load;
         Some(load)
-    }
-
-    #[inline(always)]
-    fn show_slip(&mut self, (displacement, slip): (&[f64], &[f64])) {
-        let is_steady = self.normal.is_constant();
-        let Self { units, contact, states, rates, unit, .. } = self;
-        let (mass, unit) = (units.mass, *unit);
-        let sign = f64::from(self.now.phase.slip_sign());
-        let (length, velocity) = (unit * mass.displacement(), mass.belt().belt_velocity());
-        for k in 0..=ORDER {
-            states[2 * k] = length * displacement[k] * rates[k];
-            contact.scaled[k] = slip[k] * rates[k];
-            contact.slip[k] = unit * contact.scaled[k];
-            states[2 * k + 1] = -contact.slip[k] / mass.tangent();
-        }
-        states[0] += mass.shift() * mass.displacement();
-        states[1] = (velocity - contact.slip[0]) / mass.tangent();
-        // The law along the slip in the time of the system.
-        contact.coefficient = self.law.along(sign, &contact.scaled);
-        if is_steady {
-            let load = contact.load[0];
-            contact.friction = contact.coefficient.map(|term| load * term);
-            return;
-        }
-        for k in 0..=ORDER {
-            let terms = contact.coefficient[..=k].iter().zip(contact.load[..=k].iter().rev());
-            contact.friction[k] = terms.fold(0.0, |sum, (a, b)| f64::mul_add(*a, *b, sum));
-        }
     }
 
     #[inline(always)]

@@ -144,10 +144,10 @@ impl<'a> MotionVariation<'a> {
         for index in 0..self.now.len() {
             let contact = &self.equations.contacts[index];
             let friction = MotionSegment::value(segment.friction(index), since);
-            let tilt = MotionSegment::value(&segment.contacts[index].tilt, since);
+            let tilt = MotionSegment::value(&segment.contact(index).tilt, since);
             let mut instant = LinearFriction { friction, tilt, ..LinearFriction::default() };
             // T = μ N times the factor on friction: what multiplies μ is `pressed`.
-            let pressed = MotionSegment::value(&segment.contacts[index].pressed, since);
+            let pressed = MotionSegment::value(&segment.contact(index).pressed, since);
             let load = MotionSegment::value(segment.normal_load(index), since);
             let factor = if load == 0.0 { 1.0 } else { pressed / load };
             instant.factor = factor;
@@ -239,7 +239,7 @@ impl<'a> MotionVariation<'a> {
             };
             let released = self.pending.iter().any(|jump| jump.contact == contact);
             let adhered = before.phase == ContactPhase::Stick || released;
-            let (was, is) = (self.ends[place], segment.states[place]);
+            let (was, is) = (self.ends[place], segment.states()[place]);
             adhered
                 && now.phase == ContactPhase::Stick
                 && (is - was).abs() > DROPPED * was.abs().max(is.abs())
@@ -485,16 +485,17 @@ impl MotionObserver for MotionVariation<'_> {
         self.now.clear();
         self.now.extend_from_slice(segment.now);
         if !is_held {
-            let tilts: Vec<f64> = segment.contacts.iter().map(|contact| contact.tilt[0]).collect();
+            let tilts: Vec<f64> =
+                (0..segment.now.len()).map(|contact| segment.contact(contact).tilt[0]).collect();
             self.hold_at(&tilts);
         }
-        self.jump(&segment.states[size..2 * size]);
+        self.jump(&segment.states()[size..2 * size]);
         if std::mem::take(&mut self.is_first) {
             self.project();
         }
         self.watch(segment);
         self.flow(segment);
-        let (states, since) = (segment.states, segment.duration);
+        let (states, since) = (segment.states(), segment.duration);
         with_fused_multiply_add(RatesAt { states, since, out: &mut self.rates });
         self.ends.resize(size, 0.0);
         segment.state(since, &mut self.ends);

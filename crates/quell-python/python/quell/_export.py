@@ -64,15 +64,14 @@ def events_frame(run: Simulation) -> pandas.DataFrame:
     pandas = needed("pandas", "events_frame()")
     arrays = run.arrays
     columns = {name.removeprefix("event_"): it.values for name, it in arrays.items() if it.dims == ("event",)}
-    names = run.facts.get("state_names")
-    if names is not None:
-        states = np.array([event["state"] for event in run.events], dtype=float).reshape(-1, len(names))
-        columns.update({attributes(names)[name]: states[:, place] for place, name in enumerate(names)})
-        contacts = [contact["name"] for contact in run.contacts]
-        columns["contact_name"] = np.array([contacts[event["contact"]] for event in run.events], dtype=object)
-    wanted = ["time", "contact", "kind", "slip_sign"] if names is not None else ["time", "contact", "kind", "slip_sign", "displacement", "velocity"]
-    empty = {name: np.array([], dtype=object if name == "kind" else float) for name in wanted if name not in columns}
-    table = pandas.DataFrame({**empty, **columns})
+    names = run.facts["state_names"]
+    states = np.array([event["state"] for event in run.events], dtype=float).reshape(-1, len(names))
+    contacts = [contact["name"] for contact in run.contacts]
+    columns["contact_name"] = np.array([contacts[event["contact"]] for event in run.events], dtype=object)
+    columns.update({attributes(names)[name]: states[:, place] for place, name in enumerate(names)})
+    first = ("time", "contact", "contact_name", "kind", "slip_sign", "displacement", "velocity")
+    none = np.array([])
+    table = pandas.DataFrame({name: columns.get(name, none) for name in (*first, *columns)})
     table.index.name = "event"
     table.attrs["units"] = {
         name: str(arrays[f"event_{name}"].attrs["units"])

@@ -217,26 +217,25 @@ class Study(CheckedStudy):
         ----------
         until :
             Time at the end: τ of a belt, 1/ω_ref of a disc; in a study in SI seconds, or a time with its unit such as ``"50ms"``
-            [default: the last of ``t_eval``; else 100 periods of the slowest oscillation of a system; of a disc, until a small
-            motion has grown].
+            [default: the last of ``t_eval``; else 100 periods of the slowest oscillation; of a disc, until a small motion has grown].
         events :
-            Whether to keep every event, in order, in ``events``. Those of systems are always kept.
+            Whether ``print`` lists every event. ``events`` has them in any case.
         samples :
-            Whether to sample the trajectory over ``time`` (n,): displacement and velocity, of a system every number of the
-            state, and slip velocity, friction, load and phase of every contact. Sampling does not change the run.
+            Whether to sample the trajectory over ``time`` (n,): observed displacement and velocity, every number of the state, and
+            slip velocity, friction, load and phase of every contact. Sampling does not change the run.
         start :
-            ``final`` of an earlier run, which this one continues at its time; belt: (x, x′), or a dict with ``displacement``,
-            ``velocity`` and, if the run does not begin at 0, ``time``; system: numbers that replace those of the study's start,
-            such as ``{"x": 0.1, "velocity.x": -2}``; disc: numbers that replace those of rest, such as ``{"A2": 0.1}``
-            [default: the start of the study; of a disc the leading small motion].
+            ``final`` of an earlier run, which this one continues at its time; numbers that replace those of the study's start, such as
+            ``{"x": 0.1, "velocity.x": -2}``; of one coordinate (x, x′), of a belt also a dict with ``displacement``, ``velocity`` and, if
+            the run does not begin at 0, ``time``; of a disc numbers that replace those of rest, such as ``{"A2": 0.1}`` [default: the
+            start of the study; of a disc the leading small motion].
         t_eval :
             Times (n,) of the samples in ascending order, in the unit of ``until`` or with units, instead of equal steps. The values there are
             those of the Taylor polynomials of the steps, not interpolated. ``time`` of a disc is in 1/ω_ref, in SI too.
         sound :
             Whether to describe in ``sound`` the file that ``save("run.wav")`` writes: the velocity as sound.
         transpose :
-            Factor of every frequency of that sound, which is then computed [default: 1, in SI real time, otherwise ω₀ at
-            110 Hz].
+            Factor of every frequency of that sound, which is then computed [default: 1, in SI real time, otherwise the angular
+            frequency 1 at 110 Hz].
         gain :
             Fraction of full scale per unit of velocity, in a study in SI per m/s; the sound is then computed [default: the
             largest sample is 3 dB below full scale].

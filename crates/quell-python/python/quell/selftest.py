@@ -87,7 +87,7 @@ def trajectories(sheet: Sheet) -> None:
         run = belt.simulate(50.0, samples=False)
         name = case["name"]
         sheet.same(f"{name}, events", run.event_count, case["n_events_to_50"])
-        sheet.same(f"{name}, sticking", run.final["sticking"], case["sticking_at_50"])
+        sheet.same(f"{name}, sticking", run.final["contacts"][0]["sticking"], case["sticking_at_50"])
         for event, wanted in zip(run.events, case["first_events"]):  # noqa: B905  the reference has only the first events
             sheet.same(f"{name}, kind", event["kind"], kinds.get(wanted["type"], "reversal"))
             sheet.number(f"{name}, time", event["time"], float(wanted["t"]), 1e-9)

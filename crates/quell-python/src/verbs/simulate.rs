@@ -1,16 +1,14 @@
 //! `simulate`: one trajectory with its events.
 
 use quell::kind::{moving_system, verbs};
-use quell::run::simulate::{Options, Start};
-use quell::run::system::simulate::{MotionRequest, MotionStart};
+use quell::run::simulate::{MotionRequest, MotionStart};
 use quell::run::system::start;
 use quell::sound::SoundOptions;
-use quell::study::SystemStudy;
-use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
-use quell_model::units::Quantity;
+use quell::study::{SystemStudy, UnitSystem};
+use quell::{Complaint, Failure, Study};
 
 use crate::answer::NativeAnswer;
-use crate::arguments::{NamedNumbers, Pair, state};
+use crate::arguments::{NamedNumbers, Pair};
 
 /// The options of a sound as they are given: transposition and gain.
 pub(crate) type SoundTexts = (Option<String>, Option<String>);
@@ -20,9 +18,9 @@ pub(crate) type SoundTexts = (Option<String>, Option<String>);
 pub(crate) enum Begin {
     /// A time and a state in the units of the study, such as those at the end of another run.
     Exact((f64, Vec<f64>)),
-    /// Displacement and velocity of a belt, as texts, and the time, if it is not 0.
+    /// Displacement and velocity of one coordinate, as texts, and the time, if it is not 0.
     State((Pair, Option<String>)),
-    /// Names of the state of a system with their values.
+    /// Names of the state with their values.
     Named(NamedNumbers),
 }
 
@@ -51,29 +49,8 @@ pub(crate) struct GivenRun {
 
 /// Runs the verb.
 pub(crate) fn run(study: &Study, asked: &GivenRun) -> Result<NativeAnswer, Failure> {
-    if let Some(system) = moving_system(study) {
-        let request = of_system(study, &system, asked)?;
-        return Ok(NativeAnswer::new(verbs(study).simulate_from(&request)?));
-    }
-    let until = asked.until.as_deref().ok_or_else(|| {
-        let allowed = "a time: only systems have a default";
-        refused("--until", Fault::Missing, allowed)
-    })?;
-    let read = |text: &str, option| quantity::duration(text, study.scales(), option);
-    let options = Options {
-        start: asked.begin.as_ref().map(|begin| of_belt(study, begin)).transpose()?,
-        times: in_time(asked.times.as_ref(), read)?,
-        events: asked.kept.0,
-        samples: asked.kept.1,
-        undithered: false,
-        sound: asked.sound.as_ref().map(|sound| options(study, sound)).transpose()?,
-    };
-    Ok(NativeAnswer::new(verbs(study).simulate(read(until, "--until")?, options)?))
-}
-
-fn refused(option: &'static str, fault: Fault, allowed: &str) -> Failure {
-    let origin = Origin::Argument(option);
-    Complaint::new(fault, option, origin, serde_json::Value::Null, allowed).into()
+    let request = request_of(&moving_system(study)?, asked)?;
+    Ok(NativeAnswer::new(verbs(study).simulate(&request)?))
 }
 
 /// Times of samples as numbers of the equations; `read` reads one of them for an option.
@@ -95,57 +72,27 @@ fn in_time(
     })
 }
 
-fn of_belt(study: &Study, begin: &Begin) -> Result<Start, Failure> {
-    match begin {
-        Begin::Exact((time, numbers)) => match numbers.as_slice() {
-            [displacement, velocity] => {
-                let number = |quantity, value| {
-                    study.scales().map_or(value, |scales| scales.from_units(quantity, value))
-                };
-                Ok(Start {
-                    time: number(Quantity::Time, *time),
-                    displacement: *displacement,
-                    velocity: number(Quantity::Velocity, *velocity),
-                })
-            }
-            _ => Err(refused("--start", Fault::Value, "two numbers (x, x′)")),
-        },
-        Begin::State((pair, time)) => {
-            let (displacement, velocity) = state(pair, study.scales(), "--start")?;
-            let time = time
-                .as_deref()
-                .map_or(Ok(0.0), |text| quantity::duration(text, study.scales(), "--start"))?;
-            Ok(Start { time, displacement, velocity })
-        }
-        Begin::Named(_) => {
-            Err(refused("--start", Fault::Value, "displacement and velocity: (x, x′)"))
-        }
-    }
-}
-
-fn options(study: &Study, (transpose, gain): &SoundTexts) -> Result<SoundOptions, Failure> {
+fn options(units: UnitSystem, (transpose, gain): &SoundTexts) -> Result<SoundOptions, Failure> {
     let mut options = SoundOptions::default();
     if let Some(text) = transpose {
         options.transposition = SoundOptions::transposition(text)?;
     }
     if let Some(text) = gain {
-        options.gain = Some(SoundOptions::gain(text, study.scales())?);
+        options.gain = Some(SoundOptions::gain(text, units)?);
     }
     Ok(options)
 }
 
-fn of_system(
-    study: &Study,
-    system: &SystemStudy,
-    asked: &GivenRun,
-) -> Result<MotionRequest, Failure> {
+fn request_of(system: &SystemStudy, asked: &GivenRun) -> Result<MotionRequest, Failure> {
     let read = |text: &str, option| start::duration(system, text, option);
+    // The last of the times is the usual end: a complaint is about the times.
+    let times = in_time(asked.times.as_ref(), read)?;
     let mut request = MotionRequest {
         until: asked.until.as_deref().map(|text| read(text, "--until")).transpose()?,
-        times: in_time(asked.times.as_ref(), read)?,
+        times,
         events: asked.kept.0,
         samples: asked.kept.1,
-        sound: asked.sound.as_ref().map(|sound| options(study, sound)).transpose()?,
+        sound: asked.sound.as_ref().map(|sound| options(system.units(), sound)).transpose()?,
         ..MotionRequest::default()
     };
     match &asked.begin {
@@ -157,9 +104,16 @@ fn of_system(
             let pairs = given.iter().map(|(name, value)| Ok((name.as_str(), value.as_str())));
             request.start = start::named(system, pairs)?;
         }
-        Some(Begin::State(_)) => {
-            let allowed = "names of the state with their values";
-            return Err(refused("--start", Fault::Value, allowed));
+        Some(Begin::State((pair, time))) => {
+            let numbers = start::pair(system, (&pair.0, &pair.1))?;
+            let time = time.as_deref().map(|text| read(text, "--start")).transpose()?;
+            match time {
+                None => request.start = numbers,
+                Some(time) => {
+                    let begin = start::start_with(system, &numbers)?;
+                    request.from = Some(MotionStart { time, ..begin });
+                }
+            }
         }
     }
     Ok(request)

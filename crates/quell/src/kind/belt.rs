@@ -9,11 +9,12 @@ use crate::contact_state::refused_of_belt;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::recorded_motion::ObservedMotion;
+use crate::run::simulate::MotionRequest;
 use crate::run::system::response::ResponseRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
 use crate::run::{
-    atlas, basins, belt_system, bifurcation, noise_response, orbit, probability, response, simulate,
+    atlas, basins, belt_system, bifurcation, noise_response, orbit, probability, response,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -78,8 +79,8 @@ impl Verbs for BeltStudy {
         belt_system::described(self)?.stability()
     }
 
-    fn simulate(&self, until: f64, options: simulate::Options) -> Reply {
-        answer(self, simulate::run(self, until, options))
+    fn simulate(&self, request: &MotionRequest) -> Reply {
+        Verbs::simulate(&belt_system::described(self)?, request)
     }
 
     fn response(&self) -> Reply {

@@ -8,8 +8,7 @@ use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{design, modes, motion, resonances, stability};
 use crate::run::probability;
 use crate::run::recorded_motion::ObservedMotion;
-use crate::run::simulate::Options;
-use crate::run::system::simulate::MotionRequest;
+use crate::run::simulate::MotionRequest;
 use crate::study::{DiscSetup, DiscStudy};
 use crate::sweep::Running;
 
@@ -52,14 +51,7 @@ impl Verbs for DiscStudy {
         answer(self, stability::run(self))
     }
 
-    fn simulate(&self, until: f64, options: Options) -> Reply {
-        let Options { events, samples, sound, times, .. } = options;
-        let until = Some(until);
-        let rest = MotionRequest::default();
-        self.simulate_from(&MotionRequest { until, times, events, samples, sound, ..rest })
-    }
-
-    fn simulate_from(&self, request: &MotionRequest) -> Reply {
+    fn simulate(&self, request: &MotionRequest) -> Reply {
         answer(self, motion::run(self, request))
     }
 

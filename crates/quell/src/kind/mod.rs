@@ -13,12 +13,12 @@ use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
 use crate::run::recorded_motion::ObservedMotion;
+use crate::run::simulate::MotionRequest;
 use crate::run::system::response::ResponseRequest;
-use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
-use crate::run::{basins, belt_system, bifurcation, simulate};
+use crate::run::{basins, belt_system, bifurcation};
 use crate::study::{
     DiscSetup, Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time,
 };
@@ -110,23 +110,11 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("resonances without speeds"))
     }
 
-    /// One trajectory up to τ = `until`.
+    /// One motion, from a start that may differ from that of the study.
     ///
     /// # Errors
-    /// A kind without this verb; as [`simulate::run`].
-    fn simulate(&self, until: f64, options: simulate::Options) -> Reply {
-        let _ = (until, options);
-        Err(self.lacks("simulate"))
-    }
-
-    /// One motion of a system, from a start that may differ from that of the study.
-    ///
-    /// # Errors
-    /// A kind without this verb; as [`crate::run::system::simulate::run`].
-    fn simulate_from(&self, request: &MotionRequest) -> Reply {
-        let _ = request;
-        Err(self.lacks("simulate --start"))
-    }
+    /// As [`crate::run::simulate::run`].
+    fn simulate(&self, request: &MotionRequest) -> Reply;
 
     /// The steady response.
     ///
@@ -381,12 +369,8 @@ impl Verbs for OverTime {
         self.steady.cite()
     }
 
-    fn simulate(&self, until: f64, options: simulate::Options) -> Reply {
-        self.steady.simulate(until, options)
-    }
-
-    fn simulate_from(&self, request: &MotionRequest) -> Reply {
-        self.steady.simulate_from(request)
+    fn simulate(&self, request: &MotionRequest) -> Reply {
+        self.steady.simulate(request)
     }
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
@@ -406,13 +390,15 @@ impl Verbs for OverTime {
     }
 }
 
-/// The system whose motion `simulate` computes from a start with names, of a study that has one: of a system itself, of a disc
-/// the system of its modes.
-pub fn moving_system(study: &Study) -> Option<SystemStudy> {
+/// The system whose motion `simulate` computes: that of a belt, that of the modes of a disc, or a system itself.
+///
+/// # Errors
+/// A law whose numbers are out of their bounds in the units of the study.
+pub fn moving_system(study: &Study) -> Result<SystemStudy, Failure> {
     match study.kind() {
-        Kind::Belt(_) => None,
-        Kind::Disc(setup) => Some(motion::at_rest(&study.narrowed(setup.as_ref()))),
-        Kind::System(setup) => Some(study.narrowed(setup.as_ref())),
+        Kind::Belt(setup) => belt_system::described(&study.narrowed(setup.as_ref())),
+        Kind::Disc(setup) => Ok(motion::at_rest(&study.narrowed(setup.as_ref()))),
+        Kind::System(setup) => Ok(study.narrowed(setup.as_ref())),
     }
 }
 

@@ -7,9 +7,8 @@ use crate::complaint::Failure;
 use crate::outcome::Outcome;
 use crate::run::probability::{ProbabilityRequest, ProbabilityStart};
 use crate::run::recorded_motion::ObservedMotion;
-use crate::run::simulate::Options;
+use crate::run::simulate::MotionRequest;
 use crate::run::system::response::ResponseRequest;
-use crate::run::system::simulate::MotionRequest;
 use crate::study::{BeltSetup, not_periodic};
 use crate::sweep::Running;
 
@@ -94,12 +93,8 @@ impl Verbs for UnderNoise {
         self.periodic.reach(frequencies)
     }
 
-    fn simulate(&self, until: f64, options: Options) -> Reply {
-        self.periodic.simulate(until, options)
-    }
-
-    fn simulate_from(&self, request: &MotionRequest) -> Reply {
-        self.periodic.simulate_from(request)
+    fn simulate(&self, request: &MotionRequest) -> Reply {
+        self.periodic.simulate(request)
     }
 
     fn response(&self) -> Reply {

@@ -10,16 +10,15 @@ use crate::run::bifurcation::SweepRequest;
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::recorded_motion::ObservedMotion;
-use crate::run::simulate::Options;
+use crate::run::simulate::MotionRequest;
 use crate::run::system::response::ResponseRequest;
-use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{design, exact, measured, modes, reach, response, simulate, tracked};
+use crate::run::system::{design, exact, measured, modes, reach, response, tracked};
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
     actuator, bifurcation, describing, found_attractor, friction, noise_response, orbit,
-    probability, ramp, stability, thresholds, waveforms, window,
+    probability, ramp, simulate, stability, thresholds, waveforms, window,
 };
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;
@@ -123,14 +122,7 @@ impl Verbs for SystemStudy {
         answer(self, reach::run(self, frequencies))
     }
 
-    fn simulate(&self, until: f64, options: Options) -> Reply {
-        let Options { events, samples, times, .. } = options;
-        let rest = MotionRequest::default();
-        let request = MotionRequest { until: Some(until), times, events, samples, ..rest };
-        self.simulate_from(&request)
-    }
-
-    fn simulate_from(&self, request: &MotionRequest) -> Reply {
+    fn simulate(&self, request: &MotionRequest) -> Reply {
         answer(self, simulate::run(self, request))
     }
 

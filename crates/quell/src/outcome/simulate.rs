@@ -1,46 +1,54 @@
-//! `simulate`: one trajectory with its events.
+//! `simulate`: one motion with every event.
 
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::Presented;
-use super::table::{TextTable, figure_of};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
+use crate::outcome::Presented;
+use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::simulate::{Options, Simulation, run};
+use crate::run::simulate::history::KINDS;
+use crate::run::simulate::{MotionRequest, Simulation, run};
+use crate::run::system::start::{state_names, state_quantity};
 use crate::sound::SoundOptions;
-use crate::study::{BeltSetup, BeltStudy};
+use crate::study::{SystemSetup, SystemStudy};
 
-impl Presented<BeltSetup> for Simulation {
-    fn json(&self, study: &BeltStudy) -> Json {
+/// Numbers of a state that a table lists.
+const MOST_NUMBERS: usize = 12;
+
+impl Presented<SystemSetup> for Simulation {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }
 
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
         Some(self.sentence(study))
     }
 
-    fn table(&self, study: &BeltStudy) -> String {
-        table(study, self)
+    fn table(&self, study: &SystemStudy) -> String {
+        let mut text = String::new();
+        if self.request.events {
+            events(study, self, &mut text);
+        }
+        contacts(study, self, &mut text);
+        final_state(study, self, &mut text);
+        text
     }
 
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        let mut datasets = Vec::new();
-        if self.samples.is_some() {
-            datasets.push(("trajectory", self.dataset(study)));
-        }
-        if self.events.is_some() {
-            datasets.push(("events", self.events_dataset(study)));
-        }
-        datasets
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        let samples = self.samples.as_ref();
+        let samples = samples.map(|samples| ("trajectory", self.dataset(study, samples)));
+        samples.into_iter().chain([("events", self.events_dataset(study))]).collect()
     }
 
     /// The sound is the requested one, or one with the default options.
-    fn sound(&self, study: &BeltStudy) -> Option<Result<Vec<u8>, Failure>> {
+    fn sound(&self, study: &SystemStudy) -> Option<Result<Vec<u8>, Failure>> {
         let wav = |done: &Self| {
             let comment = done.sound_sentence(study).unwrap_or_default();
             done.sound.as_ref().map(|sound| sound.wav(&comment))
@@ -48,51 +56,100 @@ impl Presented<BeltSetup> for Simulation {
         if let Some(bytes) = wav(self) {
             return Some(Ok(bytes));
         }
-        let start = self.given.then_some(self.start);
-        let options = Options { start, sound: Some(SoundOptions::default()), ..Options::default() };
-        match run(study, self.end.time, options) {
+        let sound = Some(SoundOptions::default());
+        let request = MotionRequest { until: Some(self.end.time), sound, ..self.request.clone() };
+        match run(study, &request) {
             Ok(done) => wav(&done).map(Ok),
             Err(failure) => Some(Err(failure)),
         }
     }
 
-    /// The picture shows the run without dither next to this one.
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        if self.samples.is_some() && self.undithered_samples.is_some() {
-            return Some(Ok(picture::simulate(study, self)));
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        let is_whole = self.request.undithered && self.request.times.is_none();
+        if let (Some(samples), true) = (&self.samples, is_whole) {
+            return Some(Ok(picture::simulate(study, self, samples)));
         }
-        let start = self.given.then_some(self.start);
-        let options = Options { start, samples: true, undithered: true, ..Options::default() };
-        let both = run(study, self.end.time, options);
-        Some(both.map(|both| picture::simulate(study, &both)))
+        let request = MotionRequest {
+            until: Some(self.end.time),
+            samples: true,
+            undithered: true,
+            times: None,
+            ..self.request.clone()
+        };
+        let done = match run(study, &request) {
+            Ok(done) => done,
+            Err(failure) => return Some(Err(failure)),
+        };
+        let samples = done.samples.as_ref()?;
+        Some(Ok(picture::simulate(study, &done, samples)))
     }
 }
 
-fn table(study: &BeltStudy, done: &Simulation) -> String {
-    let mut text = String::new();
-    if let Some(events) = &done.events {
-        text.push('\n');
-        let symbol = if study.scales().is_some() { "t" } else { "τ" };
-        let _ = writeln!(text, "  {symbol:>14}  {:<8}  {:>4}  {:>14}", "event", "slip", "x");
-        for event in events {
-            let time = figure_of(study, Quantity::Time, event.time);
-            let place = figure_of(study, Quantity::Displacement, event.displacement);
-            let _ = writeln!(
-                text,
-                "  {time:>14}  {:<8}  {:>4}  {place:>14}",
-                event.kind.name(),
-                event.slip_sign
-            );
+/// Every event.
+fn events(study: &SystemStudy, done: &Simulation, text: &mut String) {
+    let time = with_unit(study, "t", Quantity::Time);
+    let _ = writeln!(text, "\n  {time:>14}  {:<10}  {:>4}  contact", "event", "slip");
+    for event in &done.history.events {
+        let _ = writeln!(
+            text,
+            "  {:>14}  {:<10}  {:>4}  {}",
+            figure(event.time),
+            event.kind.name(),
+            event.slip_sign,
+            study.system().contacts[event.contact].name
+        );
+    }
+    text.push('\n');
+}
+
+/// A heading with the unit of a quantity.
+fn with_unit(study: &SystemStudy, name: &str, quantity: Quantity) -> String {
+    study.units().unit(quantity).map_or(name.to_owned(), |unit| format!("{name}/({unit})"))
+}
+
+/// Events, fractions and forces of every contact.
+fn contacts(study: &SystemStudy, done: &Simulation, text: &mut String) {
+    let contacts = &study.system().contacts;
+    if contacts.is_empty() {
+        return;
+    }
+    let width = contacts.iter().map(|contact| contact.name.chars().count()).max().unwrap_or(0);
+    let width = width.max("contact".len());
+    let _ = write!(text, "  {:<width$}  {:>10}  {:>10}", "contact", "in stick", "open");
+    for kind in KINDS {
+        let _ = write!(text, "  {:>11}", format!("{}s", kind.name()));
+    }
+    text.push('\n');
+    for (index, contact) in contacts.iter().enumerate() {
+        let of = |means: Option<f64>| means.map_or("-".to_owned(), figure);
+        let means = done.means.as_ref().map(|means| means[index]);
+        let _ = write!(
+            text,
+            "  {:<width$}  {:>10}  {:>10}",
+            contact.name,
+            of(means.map(|means| means.stick_fraction)),
+            of(means.map(|means| means.open_fraction))
+        );
+        for count in done.history.counts[index] {
+            let _ = write!(text, "  {count:>11}");
         }
         text.push('\n');
     }
-    let end = &done.end;
-    let mut table = TextTable::new(study.scales());
-    table.number("time τ", Quantity::Time, end.time);
-    table.number("displacement x", Quantity::Displacement, end.displacement);
-    table.number("velocity x′", Quantity::Velocity, end.velocity);
-    table.word("sticking", if end.sticking { "yes" } else { "no" });
-    table.word("events", &end.events.to_string());
-    table.word("steps", &end.steps.to_string());
-    text + &table.text()
+}
+
+/// The state at the end.
+fn final_state(study: &SystemStudy, done: &Simulation, text: &mut String) {
+    let system = study.system();
+    let names = state_names(system);
+    let width = names.iter().take(MOST_NUMBERS).map(|name| name.chars().count()).max();
+    let width = width.unwrap_or(0).max("final state".len());
+    let _ = writeln!(text, "  final state");
+    for (place, value) in done.end.state.iter().enumerate().take(MOST_NUMBERS) {
+        let unit = state_quantity(system, place).and_then(|quantity| study.units().unit(quantity));
+        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let _ = writeln!(text, "  {:<width$}  {}{unit}", names[place], figure(*value));
+    }
+    if names.len() > MOST_NUMBERS {
+        let _ = writeln!(text, "  … and {} more; --json lists all", names.len() - MOST_NUMBERS);
+    }
 }

@@ -1,7 +1,7 @@
 //! Short tables for people: label, value, unit, and the value in SI.
 
 use crate::quantity::unit_of;
-use crate::study::{BeltStudy, DiscStudy};
+use crate::study::DiscStudy;
 use quell_model::units::{Quantity, Scales};
 
 /// Digits of a number in a table.
@@ -74,14 +74,6 @@ impl TextTable {
 
 fn is_word(row: &[String; 4]) -> bool {
     row[2].is_empty() && row[3].is_empty() && row[1].parse::<f64>().is_err()
-}
-
-/// A quantity with [`DIGITS`] significant digits, in SI with its unit if the study is in SI.
-pub(super) fn figure_of(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
-    match study.scales().and_then(|scales| scales.one(quantity)) {
-        Some((one, unit)) => format!("{} {unit}", figure(value * one)),
-        None => figure(value),
-    }
 }
 
 /// Frequencies of a disc in hertz, in brackets; empty if the study does not define ω_ref.

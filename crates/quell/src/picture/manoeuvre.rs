@@ -1,24 +1,20 @@
-//! A manoeuvre of a belt, a disc or a system: drive, load, dither, response and spectrogram over one time axis.
+//! A manoeuvre: drive, load, dither, response and spectrogram over one time axis.
 
 use std::f64::consts::TAU;
 
 use quell_dynamics::motion::MotionSampler;
-use quell_dynamics::simulation::Sample;
 use quell_model::profile::{Knots, Wave};
 use quell_model::system::{InputTarget, Mechanical};
 use quell_model::units::Quantity;
 use quell_model::{Input, Profile, System};
 
-use super::caption::caption_of_run;
-use super::ruler::{Ruler, time_axis};
+use super::ruler::Ruler;
 use crate::plot::{
-    Colouring, Field, Figure, Heatmap, Palette, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine,
-    Shading, Sharing, Spread,
+    Colouring, Field, Heatmap, Palette, Panel, PlotAxis, PlotRole, Polyline, Shading, Spread,
 };
 use crate::run::manoeuvre::{SampledMotion, Spectrogram};
-use crate::run::simulate::{NATURAL_PERIOD, Simulation, highest_shown};
-use crate::run::system::simulate::natural_period;
-use crate::study::{BeltStudy, SystemStudy};
+use crate::run::system::periods::natural_period;
+use crate::study::SystemStudy;
 
 /// Points of a curve of a profile.
 const POINTS: usize = 600;
@@ -28,88 +24,6 @@ const MOST_CURVES: usize = 6;
 
 /// Decades of the spectrogram below its largest amplitude.
 const DECADES: f64 = 1e-4;
-
-/// The picture of a sampled run whose drive, load or dither varies in time.
-pub(super) fn manoeuvre(study: &BeltStudy, done: &Simulation) -> Figure {
-    let belt = study.belt();
-    let samples = done.samples.as_deref().unwrap_or_default();
-    let time = Ruler::of(study, Quantity::Time, samples.iter().map(|sample| sample.time));
-    let (from, to) = (done.start.time, done.end.time);
-    let horizontal = || time_axis(study, &time).between(time.place(from), time.place(to));
-    let over_time = |value: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
-        let moment = |place: usize| from + (to - from) * place as f64 / (POINTS - 1) as f64;
-        (0..POINTS).map(moment).map(|at| (time.place(at), value(at))).collect()
-    };
-    let mut panels = Vec::new();
-    if belt.drive().is_some() {
-        let curve = over_time(&|at| belt.belt_velocity_at(at));
-        let ruler = Ruler::of(study, Quantity::Velocity, curve.iter().map(|point| point.1));
-        let axis = ruler.axis("belt velocity", "");
-        let curve = curve.into_iter().map(|(at, value)| (at, ruler.place(value)));
-        let panel = Panel::new(horizontal(), axis).with(ReferenceLine::horizontal(0.0));
-        panels.push(panel.with(Polyline::new(PlotRole::Exact, curve)));
-    }
-    if let Some(load) = belt.load() {
-        let curve = over_time(&|at| load.value(at));
-        let ruler = Ruler::of(study, Quantity::Force, curve.iter().map(|point| point.1));
-        let axis = ruler.axis("normal load", "").from(0.0);
-        let curve = curve.into_iter().map(|(at, value)| (at, ruler.place(value)));
-        panels.push(Panel::new(horizontal(), axis).with(Polyline::new(PlotRole::Exact, curve)));
-    }
-    let enveloped: Vec<_> =
-        belt.dithers().iter().filter(|dither| dither.envelope.is_some()).collect();
-    if !enveloped.is_empty() {
-        let amplitude =
-            |at: f64, place: usize| enveloped[place].amplitude * enveloped[place].wave().share(at);
-        let most = enveloped.iter().map(|dither| dither.wave().peak());
-        let ruler = Ruler::of(study, Quantity::Force, most);
-        let axis = ruler.axis("dither amplitude", "");
-        let curves = (0..enveloped.len()).map(|place| {
-            let curve = over_time(&|at| ruler.place(amplitude(at, place)));
-            Polyline::new(PlotRole::Dithered, curve)
-        });
-        panels.push(Panel::new(horizontal(), axis).with_all(curves.collect::<Vec<_>>()));
-    }
-    panels.push(response(study, samples, &time, horizontal()));
-    if let Some(panel) = spectrogram(study, samples, &time, horizontal()) {
-        panels.push(panel);
-    }
-    let found = done.manoeuvre_sentence(study).unwrap_or_default();
-    Figure::grid(1, panels)
-        .sharing_x(Sharing::All)
-        .caption(format!("{} {found}", caption_of_run(study)))
-        .title(study.title().unwrap_or_default())
-}
-
-fn response(study: &BeltStudy, samples: &[Sample], time: &Ruler, axis: PlotAxis) -> Panel {
-    let place =
-        Ruler::of(study, Quantity::Displacement, samples.iter().map(|sample| sample.displacement));
-    let role = if study.belt().dithers().is_empty() { PlotRole::Exact } else { PlotRole::Dithered };
-    let curve =
-        samples.iter().map(|sample| (time.place(sample.time), place.place(sample.displacement)));
-    Panel::new(axis, place.axis("displacement", "x"))
-        .with(Polyline::new(role, curve.collect::<Vec<_>>()))
-}
-
-/// The spectrogram of the displacement; `None` if the run is too short for one.
-fn spectrogram(
-    study: &BeltStudy,
-    samples: &[Sample],
-    time: &Ruler,
-    axis: PlotAxis,
-) -> Option<Panel> {
-    let [first, second, ..] = samples else { return None };
-    let displacement: Vec<f64> = samples.iter().map(|sample| sample.displacement).collect();
-    let motion = SampledMotion {
-        start: first.time,
-        step: second.time - first.time,
-        displacement: &displacement,
-    };
-    let found = Spectrogram::of(motion, NATURAL_PERIOD, highest_shown(study))?;
-    let frequency = Ruler::of(study, Quantity::FrequencyRatio, found.frequencies.iter().copied());
-    let amplitude = Ruler::of(study, Quantity::Displacement, [found.largest()]);
-    heatmap(&found, axis, (time, &frequency, &amplitude))
-}
 
 /// A spectrogram over an axis of time.
 fn heatmap(

@@ -1,61 +1,155 @@
-//! Displacement and velocity over time, with and without dither.
+//! A motion: the observed displacement over time with what every contact does, and the phase plane.
 
-use quell_dynamics::simulation::Sample;
+use quell_dynamics::motion::{ContactPhase, MotionSampler};
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_run;
-use super::manoeuvre::manoeuvre;
-use super::ruler::{Ruler, time_axis};
-use crate::plot::{Figure, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing};
+use super::caption::caption_of_system;
+use super::manoeuvre::around_response;
+use super::ruler::Ruler;
+use super::system_motion::{observed, time_axis};
+use crate::plot::{
+    Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
+};
 use crate::run::simulate::Simulation;
-use crate::study::BeltStudy;
+use crate::run::simulate::history::EventHistory;
+use crate::study::SystemStudy;
+use crate::words::capital;
 
-/// The picture of a sampled trajectory.
-pub fn simulate(study: &BeltStudy, done: &Simulation) -> Figure {
-    if done.manoeuvre.is_some() {
-        return manoeuvre(study, done);
-    }
-    let with = done.samples.as_deref().unwrap_or_default();
-    let without = done.undithered_samples.as_deref().unwrap_or_default();
-    let both = || with.iter().chain(without);
-    let time = Ruler::of(study, Quantity::Time, both().map(|sample| sample.time));
-    let place = Ruler::of(study, Quantity::Displacement, both().map(|sample| sample.displacement));
-    let speed = Ruler::of(study, Quantity::Velocity, both().map(|sample| sample.velocity));
-    let curve = |samples: &[Sample], role, value: &dyn Fn(&Sample) -> f64| {
-        let points = samples.iter().map(|sample| (time.place(sample.time), value(sample)));
-        Polyline::new(role, points.collect::<Vec<_>>())
-    };
-    let displacement = |sample: &Sample| place.place(sample.displacement);
-    let velocity = |sample: &Sample| speed.place(sample.velocity);
-    let lines = |value: &dyn Fn(&Sample) -> f64| {
-        let mut lines = Vec::new();
-        if !without.is_empty() {
-            lines.push(curve(without, PlotRole::Undithered, value).label("without dither"));
-        }
-        let (role, label) = match study.belt().dithers() {
-            [] => (PlotRole::Exact, "no dither"),
-            _ => (PlotRole::Dithered, "with dither"),
-        };
-        lines.push(curve(with, role, value).label(label));
-        lines
-    };
-    let belt_velocity = speed.place(study.belt().belt_velocity());
-    let (belt_symbol, velocity_symbol) = symbols(study);
-    let horizontal = || time_axis(study, &time);
-    let panels = [
-        Panel::new(horizontal(), place.axis("displacement", "x")).with_all(lines(&displacement)),
-        Panel::new(horizontal(), speed.axis("velocity", velocity_symbol))
-            .with(ReferenceLine::horizontal(belt_velocity).label(belt_symbol))
-            .with_all(lines(&velocity)),
-    ];
-    let figure = Figure::grid(1, panels)
-        .sharing_x(Sharing::All)
-        .caption(caption_of_run(study))
-        .title(study.title().unwrap_or_default());
-    if study.belt().dithers().is_empty() { figure } else { figure.legend(SharedLegend::Above) }
+/// Width of the bars of stick and separation.
+const BAR: f64 = 4.0;
+
+/// Distance of the bars of two contacts, over the range of the curve.
+const SPACING: f64 = 0.075;
+
+/// Contacts with bars.
+const MOST_BARS: usize = 10;
+
+/// The observed motion at every sample.
+struct Observed {
+    times: Vec<f64>,
+    displacement: Vec<f64>,
+    /// None for first-order equations.
+    velocity: Option<Vec<f64>>,
 }
 
-/// Symbols of the velocities of the belt and of the mass.
-fn symbols(study: &BeltStudy) -> (&'static str, &'static str) {
-    if study.scales().is_some() { ("$V_0$", "v") } else { ("$v_0$", "x′") }
+impl Observed {
+    fn of(study: &SystemStudy, samples: &MotionSampler) -> Self {
+        let (displacement, velocity) = observed(study, samples);
+        Self { times: samples.times.clone(), displacement, velocity }
+    }
+}
+
+/// The picture of a sampled motion, with that from the same start without dither where it is known.
+pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler) -> Figure {
+    let with = Observed::of(study, samples);
+    let without = done.undithered.as_ref().map(|samples| Observed::of(study, samples));
+    let both = || [Some(&with), without.as_ref()].into_iter().flatten();
+    let places = both().flat_map(|motion| motion.displacement.iter().copied());
+    let x = Ruler::of_system(study, Quantity::Displacement, places);
+    let (time, clock) = time_axis(study, (done.start.time, done.end.time));
+    let across = x.axis("observed displacement", "");
+    let over_time = |motion: &Observed| -> Vec<(f64, f64)> {
+        let times = motion.times.iter().map(|time| clock.place(*time));
+        times.zip(motion.displacement.iter().map(|value| x.place(*value))).collect()
+    };
+    let curves = curves(study, [Some(&with), without.as_ref()], &over_time);
+    let ends = both().flat_map(|motion| &motion.displacement).map(|value| x.place(*value));
+    let ends = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
+        (f64::min(least, x), f64::max(most, x))
+    });
+    let panel = Panel::new(time.clone(), across.clone()).with_all(curves);
+    let panel = panel.with_all(bars(&done.history, &clock, ends));
+    let start = done.start_in_words(study);
+    if done.manoeuvre.is_some() {
+        let (mut panels, below) =
+            around_response(study, samples, &with.displacement, (&time, &clock));
+        panels.push(panel);
+        panels.extend(below);
+        let found = done.manoeuvre_sentence(study).unwrap_or_default();
+        return Figure::grid(1, panels)
+            .sharing_x(Sharing::All)
+            .title(study.title().unwrap_or_default())
+            .caption(format!("{} {found}", caption(study, &start)));
+    }
+    let mut panels = vec![panel];
+    let rates = || both().filter_map(|motion| motion.velocity.as_deref());
+    if with.velocity.is_some() {
+        let surface = surface(study);
+        let shown = rates().flatten().copied().chain(surface);
+        let v = Ruler::of_system(study, Quantity::Velocity, shown);
+        let plane = |motion: &Observed| -> Vec<(f64, f64)> {
+            let rates = motion.velocity.iter().flatten().map(|rate| v.place(*rate));
+            motion.displacement.iter().map(|value| x.place(*value)).zip(rates).collect()
+        };
+        let curves = self::curves(study, [Some(&with), without.as_ref()], &plane);
+        let surface = surface.map(|surface| {
+            ReferenceLine::horizontal(v.place(surface)).label("velocity of the surface")
+        });
+        let panel = Panel::new(across, v.axis("observed velocity", ""));
+        panels.push(panel.with_all(surface).with_all(curves));
+    }
+    let figure = Figure::grid(1, panels)
+        .title(study.title().unwrap_or_default())
+        .caption(caption(study, &start));
+    if without.is_some() { figure.legend(SharedLegend::Above) } else { figure }
+}
+
+/// The curves with and without dither, the latter below the former.
+fn curves(
+    study: &SystemStudy,
+    [with, without]: [Option<&Observed>; 2],
+    points: &dyn Fn(&Observed) -> Vec<(f64, f64)>,
+) -> Vec<Polyline> {
+    let without = without
+        .map(|motion| Polyline::new(PlotRole::Undithered, points(motion)).label("without dither"));
+    let is_alone = without.is_none();
+    let role = if study.system().inputs.is_empty() { PlotRole::Exact } else { PlotRole::Dithered };
+    let with = with.map(|motion| {
+        let curve = Polyline::new(role, points(motion));
+        if is_alone { curve } else { curve.label("with dither") }
+    });
+    without.into_iter().chain(with).collect()
+}
+
+/// Velocity of the surface on which the observed displacement slides, where it is the displacement of the only contact.
+fn surface(study: &SystemStudy) -> Option<f64> {
+    let [contact] = study.system().contacts.as_slice() else { return None };
+    let is_observed = contact.tangent.as_ref().is_some_and(|row| *row == study.observe());
+    (is_observed && study.system().is_steady()).then(|| contact.surface_velocity.mean())
+}
+
+/// A bar below the curve for every interval in which a contact sticks or is open, one line for each of the first contacts.
+fn bars(history: &EventHistory, clock: &Ruler, (least, most): (f64, f64)) -> Vec<Polyline> {
+    let length = if most > least { most - least } else { 1.0 };
+    let kinds = [("stick", ContactPhase::Stick, 0), ("open", ContactPhase::Open, 1)];
+    let mut lines = Vec::new();
+    for (label, phase, series) in kinds {
+        let contacts = history.intervals.iter().take(MOST_BARS).enumerate();
+        let pieces = contacts.flat_map(|(contact, intervals)| {
+            let of_phase = intervals.iter().filter(move |interval| interval.phase == phase);
+            let height = least - (contact + 1) as f64 * SPACING * length;
+            of_phase.map(move |interval| {
+                [(clock.place(interval.from), height), (clock.place(interval.to), height)]
+            })
+        });
+        let pieces: Vec<[(f64, f64); 2]> = pieces.collect();
+        if !pieces.is_empty() {
+            let bars = Polyline::pieces(PlotRole::Series(series), pieces);
+            lines.push(bars.width(BAR).style(LineStyle::Solid).label(label));
+        }
+    }
+    lines
+}
+
+/// The caption of a run from a start.
+fn caption(study: &SystemStudy, start: &str) -> String {
+    let contacts = &study.system().contacts;
+    let names: Vec<String> =
+        contacts.iter().take(MOST_BARS).map(|contact| contact.name.clone()).collect();
+    let bars = match names.len() {
+        0 => String::new(),
+        1 => format!(" Bars: contact {}.", names[0]),
+        _ => format!(" Bars from top to bottom: contacts {}.", names.join(", ")),
+    };
+    format!("{} {}.{bars}", caption_of_system(study), capital(start))
 }

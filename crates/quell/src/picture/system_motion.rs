@@ -1,31 +1,17 @@
-//! Pictures of the motion of a system: the observed displacement, what every contact does, and the phase plane.
+//! The picture of a steady response of a system, and the observed motion that it shares with others.
 
-use quell_dynamics::motion::{ContactPhase, MotionSampler};
+use quell_dynamics::motion::MotionSampler;
 use quell_dynamics::response::SystemRecord;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_system;
-use super::manoeuvre::around_response;
 use super::ruler::Ruler;
 use super::system::frequency_axis;
-use crate::plot::{
-    Figure, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
-};
-use crate::run::system::history::EventHistory;
+use crate::plot::{Figure, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend};
 use crate::run::system::response::SettledSystem;
-use crate::run::system::simulate::SystemSimulation;
 use crate::run::system::start::start_in_words;
 use crate::study::SystemStudy;
 use crate::words::capital;
-
-/// Width of the bars of stick and separation.
-const BAR: f64 = 4.0;
-
-/// Distance of the bars of two contacts, over the range of the curve.
-const SPACING: f64 = 0.075;
-
-/// Contacts with bars.
-const MOST_BARS: usize = 10;
 
 /// Number of periods of the strongest slow line of the record that are shown.
 const PERIODS_SHOWN: f64 = 8.0;
@@ -55,82 +41,6 @@ pub(super) fn observed(
     };
     let velocity = study.system().structure.mechanical().map(|structure| of(structure.size()));
     (of(0), velocity)
-}
-
-/// The picture of a sampled motion.
-pub fn simulate(study: &SystemStudy, done: &SystemSimulation, samples: &MotionSampler) -> Figure {
-    let (displacement, velocity) = observed(study, samples);
-    let role = if study.system().inputs.is_empty() { PlotRole::Exact } else { PlotRole::Dithered };
-    let x = Ruler::of_system(study, Quantity::Displacement, displacement.iter().copied());
-    let plain = displacement.clone();
-    let displacement: Vec<f64> = displacement.into_iter().map(|value| x.place(value)).collect();
-    let (time, clock) = time_axis(study, (done.start.time, done.end.time));
-    let times = samples.times.iter().map(|time| clock.place(*time));
-    let over_time = times.zip(displacement.iter().copied());
-    let across = x.axis("observed displacement", "");
-    let ends = displacement.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
-        (f64::min(least, *x), f64::max(most, *x))
-    });
-    let axis = time.clone();
-    let panel = Panel::new(time, across.clone()).with(Polyline::new(role, over_time));
-    let panel = panel.with_all(bars(&done.history, &clock, ends));
-    if done.manoeuvre.is_some() {
-        let (mut panels, below) = around_response(study, samples, &plain, (&axis, &clock));
-        panels.push(panel);
-        panels.extend(below);
-        let found = done.manoeuvre_sentence(study).unwrap_or_default();
-        let start = start_in_words(study, &done.request.start);
-        return Figure::grid(1, panels)
-            .sharing_x(Sharing::All)
-            .title(study.title().unwrap_or_default())
-            .caption(format!("{} {found}", caption(study, &start)));
-    }
-    let mut panels = vec![panel];
-    if let Some(velocity) = velocity {
-        let v = Ruler::of_system(study, Quantity::Velocity, velocity.iter().copied());
-        let up = v.axis("observed velocity", "");
-        let plane = displacement.into_iter().zip(velocity.into_iter().map(|rate| v.place(rate)));
-        panels.push(Panel::new(across, up).with(Polyline::new(role, plane)));
-    }
-    Figure::grid(1, panels)
-        .title(study.title().unwrap_or_default())
-        .caption(caption(study, &start_in_words(study, &done.request.start)))
-}
-
-/// A bar below the curve for every interval in which a contact sticks or is open, one line for each of the first contacts.
-fn bars(history: &EventHistory, clock: &Ruler, (least, most): (f64, f64)) -> Vec<Polyline> {
-    let length = if most > least { most - least } else { 1.0 };
-    let kinds = [("stick", ContactPhase::Stick, 0), ("open", ContactPhase::Open, 1)];
-    let mut lines = Vec::new();
-    for (label, phase, series) in kinds {
-        let contacts = history.intervals.iter().take(MOST_BARS).enumerate();
-        let pieces = contacts.flat_map(|(contact, intervals)| {
-            let of_phase = intervals.iter().filter(move |interval| interval.phase == phase);
-            let height = least - (contact + 1) as f64 * SPACING * length;
-            of_phase.map(move |interval| {
-                [(clock.place(interval.from), height), (clock.place(interval.to), height)]
-            })
-        });
-        let pieces: Vec<[(f64, f64); 2]> = pieces.collect();
-        if !pieces.is_empty() {
-            let bars = Polyline::pieces(PlotRole::Series(series), pieces);
-            lines.push(bars.width(BAR).style(LineStyle::Solid).label(label));
-        }
-    }
-    lines
-}
-
-/// The caption of a run from a start.
-fn caption(study: &SystemStudy, start: &str) -> String {
-    let contacts = &study.system().contacts;
-    let names: Vec<String> =
-        contacts.iter().take(MOST_BARS).map(|contact| contact.name.clone()).collect();
-    let bars = match names.len() {
-        0 => String::new(),
-        1 => format!(" Bars: contact {}.", names[0]),
-        _ => format!(" Bars from top to bottom: contacts {}.", names.join(", ")),
-    };
-    format!("{} {}.{bars}", caption_of_system(study), capital(start))
 }
 
 /// The picture of a steady response: the end of the record and the spectrum, with and without dither.

@@ -46,6 +46,7 @@ fn warned(study: &BeltStudy, warnings: Vec<String>) -> Result<SystemStudy, Failu
         sizes: sizes(study),
         actuator: study.actuator_in_units(),
         design: study.design_in_units(),
+        tolerance: Some(study.solver().tolerance),
         time: None,
     }))
 }

@@ -7,7 +7,8 @@ use serde_json::Value as Json;
 
 use super::exponents::{ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion};
 use super::system::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
-use super::system::simulate::{beyond_laws, slowest_period};
+use super::system::of_runs::beyond_laws;
+use super::system::periods::slowest_period;
 use super::system::start::{StateNumbers, start_in_words, start_with};
 use super::system::{has_equations, rate_of};
 use crate::complaint::Failure;

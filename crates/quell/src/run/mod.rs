@@ -38,7 +38,6 @@ mod sample_times;
 pub mod simulate;
 pub mod sketch;
 mod slip;
-mod sound_tap;
 pub mod stability;
 pub mod system;
 pub mod thresholds;

@@ -11,7 +11,7 @@ use serde_json::Value as Json;
 
 use super::failed;
 use super::system::has_equations;
-use super::system::simulate::slowest_period;
+use super::system::periods::slowest_period;
 use super::system::start::start_of;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::SystemStudy;
@@ -25,6 +25,8 @@ pub struct ObservedMotion {
     pub row: Vec<f64>,
     /// Where its runs begin.
     pub start: MotionStart,
+    /// Bound on the last terms of a step relative to the load, if the study has one.
+    pub tolerance: Option<f64>,
     /// Units of the equations.
     pub scales: RecordScales,
     /// Period of the slowest oscillation; `None` if nothing oscillates.
@@ -58,6 +60,7 @@ impl ObservedMotion {
             system: study.system().clone(),
             row: study.observe(),
             start: start_of(study)?,
+            tolerance: study.tolerance(),
             scales,
             period: slowest_period(study, "--settle").ok(),
         })
@@ -78,7 +81,8 @@ impl ObservedMotion {
         let last = times.last().copied().unwrap_or(self.start.time);
         // Beyond the last sample, which may round to just after it.
         let until = last + motion.time_scale() + 1e-9 * last.abs();
-        motion.run(&self.start, until, motion.run_tolerance(), &mut sampler).map_err(failed)?;
+        let tolerance = motion.run_tolerance(self.tolerance);
+        motion.run(&self.start, until, tolerance, &mut sampler).map_err(failed)?;
         Ok((sampler.values, sampler.rates))
     }
 }

@@ -8,7 +8,7 @@ use quell_numerics::spectrum::{Peak, Spectrum};
 use serde_json::Value as Json;
 
 use super::failed;
-use super::system::simulate::{beyond_laws, of_engine, put_means};
+use super::system::of_runs::{beyond_laws, of_engine, put_means};
 use super::system::start::start_of;
 use super::system::{has_equations, in_units};
 use crate::complaint::{Complaint, Failure};
@@ -51,7 +51,9 @@ pub fn run(study: &SystemStudy, window: (f64, f64)) -> Result<WindowedResponse, 
         return Err(Complaint::option("--window", format!("{from}:{to}"), allowed).into());
     }
     let motion = Motion::new(system).map_err(failed)?;
-    let before = motion.run(&start, from, motion.run_tolerance(), &mut ()).map_err(failed)?;
+    let before = motion
+        .run(&start, from, motion.run_tolerance(study.tolerance()), &mut ())
+        .map_err(failed)?;
     let fastest = system.waves().map(Wave::highest).fold(1.0 / motion.time_scale(), f64::max);
     let wanted = SAMPLES_PER_PERIOD * (to - from) * fastest / std::f64::consts::TAU;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -59,8 +61,12 @@ pub fn run(study: &SystemStudy, window: (f64, f64)) -> Result<WindowedResponse, 
     let step = (to - from) / count as f64;
     let mut observed = RowMeter::new(&study.observe(), from, step, count);
     let mut meter = ContactMeter::new(system.contacts.len());
-    let end =
-        motion.run(&before.restart(), to, motion.run_tolerance(), &mut (&mut observed, &mut meter));
+    let end = motion.run(
+        &before.restart(),
+        to,
+        motion.run_tolerance(study.tolerance()),
+        &mut (&mut observed, &mut meter),
+    );
     let end = end.map_err(failed)?;
     observed.finish(&end.state);
     let mut warnings = study.warnings().to_vec();

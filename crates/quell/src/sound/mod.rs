@@ -25,10 +25,11 @@ mod wave;
 
 use std::f64::consts::TAU;
 
-use quell_model::units::{Quantity, Scales};
+use quell_model::units::Quantity;
 
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::quantity;
+use crate::study::UnitSystem;
 use crate::words::digits;
 
 pub use recorder::SoundRecorder;
@@ -91,12 +92,12 @@ impl SoundOptions {
         positive("--transpose", text, found.ok(), "a factor above 0, such as 0.5")
     }
 
-    /// Reads a gain, as `--gain` gives it: per m/s in a study with scales.
+    /// Reads a gain, as `--gain` gives it, per unit of velocity of a study in these units.
     ///
     /// # Errors
     /// A complaint about `--gain`.
-    pub fn gain(text: &str, scales: Option<Scales>) -> Result<f64, Box<Complaint>> {
-        let found = quantity::parse(text, Quantity::PerVelocity, scales, "--gain")?;
+    pub fn gain(text: &str, units: UnitSystem) -> Result<f64, Box<Complaint>> {
+        let found = quantity::of_system(text, Some(Quantity::PerVelocity), units, "--gain")?;
         let allowed = "a fraction of full scale per unit of velocity above 0, such as 2.5";
         positive("--gain", text, Some(found), allowed)
     }

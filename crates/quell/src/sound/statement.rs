@@ -39,7 +39,7 @@ impl Sound {
         let seconds = digits(self.duration());
         let real = if in_real_time { " in real time" } else { "" };
         let pitch = match self.natural_frequency {
-            Some(hertz) => format!(", ω₀ at {} Hz", digits(hertz)),
+            Some(hertz) => format!(", lowest natural frequency at {} Hz", digits(hertz)),
             None if in_real_time => String::new(),
             None => format!(", {} units of time per second", digits(self.time_per_second)),
         };

@@ -204,11 +204,10 @@ fn options_are_read() {
     for wrong in ["0", "-1", "nan", "inf", "high", "2s"] {
         assert_eq!(SoundOptions::transposition(wrong).expect_err("wrong").key, "--transpose");
     }
-    let scales = Scales::new(1.0, 4.0).expect("valid");
-    // A gain of 3 per m/s is 6 per metre of velocity/ω₀.
-    assert_eq!(SoundOptions::gain("3", Some(scales)), Ok(6.0));
-    assert_eq!(SoundOptions::gain("3", None), Ok(3.0));
+    for units in [UnitSystem::None, UnitSystem::Si] {
+        assert_eq!(SoundOptions::gain("3", units), Ok(3.0));
+    }
     for wrong in ["0", "-1", "nan", "loud"] {
-        assert_eq!(SoundOptions::gain(wrong, None).expect_err("wrong").key, "--gain");
+        assert_eq!(SoundOptions::gain(wrong, UnitSystem::None).expect_err("wrong").key, "--gain");
     }
 }

@@ -25,8 +25,8 @@ use crate::contact_state::averaged_without_states;
 use crate::range::outside_of_laws;
 use crate::run::protocol::Protocol;
 use crate::run::system::attractor::end_of_run;
+use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::response::{self, ResponseRequest};
-use crate::run::system::simulate::beyond_laws;
 use crate::study::{SystemSetup, SystemStudy};
 
 /// Seconds of one growth rate of ten states, and how often a search of critical amplitudes computes one.

@@ -111,7 +111,7 @@ def trajectory(study: Study, start: Mapping[str, float] | None, pair: int = -1) 
         pair = int(np.argmax(spread)) if spread else 0
     first, second = pairs[pair]
     time = values(run, "time")
-    phase = "sticking" if kind == "belt" else next((it for it in run.arrays if it.endswith("_phase")), None)
+    phase = next((it for it in run.arrays if it.endswith("_phase")), None)
     sticking = values(run, phase) == 1.0 if phase is not None else np.zeros(time.size, dtype=bool)
     events = [it for it in run.facts["events"] if it["contact"] == 0]
     moments_of = [float(it["time"]) for it in events]

@@ -892,6 +892,10 @@ class ResponseColumns(Frozen):
 class SimulationColumns(Frozen):
     """Of :class:`quell.results.Simulation`."""
 
+    belt_friction: npt.NDArray[np.float64]
+    belt_normal: npt.NDArray[np.float64]
+    belt_phase: npt.NDArray[np.uint8]
+    belt_slip_velocity: npt.NDArray[np.float64]
     contact_friction_power: npt.NDArray[np.float64]
     contact_least_normal: npt.NDArray[np.float64]
     contact_mean_friction: npt.NDArray[np.float64]
@@ -920,10 +924,7 @@ class SimulationColumns(Frozen):
     final_contact_sticking: npt.NDArray[Any]
     final_displacement: float
     final_friction: float
-    final_normal_load: float
-    final_slip_sign: Any
     final_state_value: npt.NDArray[np.float64]
-    final_sticking: Any
     final_time: float
     final_velocity: float
     manoeuvre_begins_above: float
@@ -938,7 +939,6 @@ class SimulationColumns(Frozen):
     manoeuvre_vibration_amplitude: npt.NDArray[np.float64]
     manoeuvre_vibration_from: npt.NDArray[np.float64]
     manoeuvre_vibration_to: npt.NDArray[np.float64]
-    slip_velocity: npt.NDArray[np.float64]
     sound_clipped: Any
     sound_duration_s: float
     sound_gain: float
@@ -951,7 +951,6 @@ class SimulationColumns(Frozen):
     start_state_value: npt.NDArray[np.float64]
     start_time: float
     start_velocity: float
-    sticking: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
 

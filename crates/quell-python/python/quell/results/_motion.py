@@ -22,26 +22,26 @@ class Simulation(_columns.SimulationColumns, Result):
 
     verb = "simulate"
     final: dict[str, Any]
-    """``time``, ``displacement``, ``velocity``, ``sticking``, ``slip_sign`` at the end; of a system ``time``, ``state`` and
-    ``contacts``: ``name``, ``slip_velocity``, ``sticking``, ``open``, ``slip_sign``, ``friction``, ``normal``."""
+    """``time``, observed ``displacement`` and ``velocity``, ``state`` and ``contacts`` at the end: ``name``, ``slip_velocity``,
+    ``sticking``, ``open``, ``slip_sign``, ``friction``, ``normal`` of each."""
     events: list[dict[str, Any]]
-    """``time``, ``contact``, ``kind`` ("stick", "release", "reversal", of a system also "separation", "landing"), ``slip_sign``,
-    and ``displacement`` or ``state`` of every event."""
+    """``time``, ``contact``, ``kind`` ("stick", "release", "reversal", "separation", "landing"), ``slip_sign``, observed
+    ``displacement`` and ``velocity``, and ``state`` of every event."""
     manoeuvre: dict[str, Any]
     """Where drive, load or dither varies in time: ``vibration`` (``from``, ``to``, ``amplitude`` of each interval),
     ``dither_onset``, ``time_to_quench`` and ``overshoot``."""
     event_count: int
     """Number of events, including those that were not kept."""
     sound: dict[str, Any]
-    """With ``sound``: ``sample_rate``, ``duration_s``, ``transposition``, ``natural_frequency_hz`` (where ω₀ sounds),
+    """With ``sound``: ``sample_rate``, ``duration_s``, ``transposition``, ``natural_frequency_hz`` (where the lowest one sounds),
     ``strongest_frequency_hz``, ``gain`` and ``clipped`` of the file that ``save("run.wav")`` writes."""
     event_counts: dict[str, int]
-    """System: number of events of each kind."""
+    """Number of events of each kind."""
     contacts: list[dict[str, Any]]
-    """System: ``name``, ``event_counts``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``,
-    ``least_normal``, ``friction_power`` of every contact over the run."""
+    """``name``, ``event_counts``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``, ``least_normal``,
+    ``friction_power`` of every contact over the run."""
     state_names: list[str]
-    """System: names of the numbers of ``state``."""
+    """Names of the numbers of ``state``."""
     amplitude: float | None
     """Disc: half the peak-to-peak deflection under the first load over the last tenth of the run."""
     growth_observed: float | None
@@ -62,8 +62,8 @@ class Simulation(_columns.SimulationColumns, Result):
     def events_frame(self) -> pandas.DataFrame:
         """The events as a pandas DataFrame, one row for each, in the units of the study.
 
-        Columns are ``time``, ``contact``, ``kind``, ``slip_sign``, and ``displacement`` of a belt; of a system ``contact_name`` and
-        every number of the state.
+        Columns are ``time``, ``contact``, ``contact_name``, ``kind``, ``slip_sign``, ``displacement``, ``velocity`` and every number
+        of the state.
         """
         from .._export import events_frame
 

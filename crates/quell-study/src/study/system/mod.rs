@@ -98,6 +98,11 @@ impl SystemStudy {
         self.kind().observe.clone()
     }
 
+    /// The same without a copy.
+    pub fn observed_row(&self) -> &[f64] {
+        &self.kind().observe
+    }
+
     /// The design that the study requests.
     pub fn design(&self) -> Option<&Design> {
         self.kind().design.as_ref()
@@ -111,6 +116,11 @@ impl SystemStudy {
     /// The dither, counted from 0, whose amplitude a path names; `None` for any other number.
     pub fn dither_of(&self, path: &str) -> Option<usize> {
         path::amplitude_of(&self.source.document, path)
+    }
+
+    /// Bound on the last retained terms of a step of a run, relative to the load; `None` for that of the engine.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.kind().tolerance
     }
 
     /// Where a run begins.

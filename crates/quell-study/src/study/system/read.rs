@@ -69,6 +69,7 @@ pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup
         design: design.filter(|_| places.is_some())?,
         actuator: actuator?,
         sizes: sizes.into(),
+        tolerance: None,
         time: None,
     })
 }

@@ -34,6 +34,7 @@ pub struct SystemSetup {
     pub(super) actuator: Option<Actuator>,
     /// Amplitudes that are given by another size than a peak force.
     pub(super) sizes: Arc<[GivenSize]>,
+    pub(super) tolerance: Option<f64>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
 }
@@ -66,6 +67,8 @@ pub struct DescribedSystem {
     pub actuator: Option<Actuator>,
     /// The design that is requested, in these units.
     pub design: Option<Design>,
+    /// Bound on the last retained terms of a step of a run, relative to the load; `None` for that of the engine.
+    pub tolerance: Option<f64>,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
 }
@@ -81,6 +84,7 @@ impl From<DescribedSystem> for SystemSetup {
             sizes,
             actuator,
             design,
+            tolerance,
             time,
         } = described;
         warnings.extend(passivity::warnings(&system.contacts, units));
@@ -95,6 +99,7 @@ impl From<DescribedSystem> for SystemSetup {
             design,
             actuator,
             sizes: sizes.into(),
+            tolerance,
             time,
         }
     }

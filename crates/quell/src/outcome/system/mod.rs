@@ -5,7 +5,6 @@ mod measured;
 mod modes;
 mod reach;
 mod response;
-mod simulate;
 mod tracked;
 
 use std::fmt::Write as _;

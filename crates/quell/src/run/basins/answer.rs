@@ -8,7 +8,7 @@ use super::{Basins, Portrait, Share};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::system::attractor::{VERDICTS, verdict_code};
-use crate::run::system::simulate::beyond_laws;
+use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::{state_names, state_quantity};
 use crate::run::system::value_at;
 use crate::study::SystemStudy;

@@ -9,7 +9,7 @@ use super::{Bifurcation, SweepDirection, SweepPoint};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::system::attractor::{KINDS, MotionKind, SystemAttractor, VERDICTS, verdict_code};
-use crate::run::system::simulate::beyond_laws;
+use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
 

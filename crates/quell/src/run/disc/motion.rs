@@ -13,8 +13,9 @@ use super::overflowed;
 use super::watch::RowWatch;
 use crate::complaint::Failure;
 use crate::outcome::disc_units::{DiscUnits, FORCE, POWER};
+use crate::run::simulate::{MotionRequest, Simulation, run_observed};
 use crate::run::system::in_units_of;
-use crate::run::system::simulate::{MotionRequest, SystemSimulation, run_observed, slowest_period};
+use crate::run::system::periods::slowest_period;
 use crate::study::{DescribedSystem, DiscStudy, ScaledTime, SystemStart, SystemStudy, UnitSystem};
 use crate::words::digits;
 
@@ -44,7 +45,7 @@ pub struct DiscSimulation {
     /// The disc as a system, with its start.
     pub system: SystemStudy,
     /// The motion of that system.
-    pub motion: SystemSimulation,
+    pub motion: Simulation,
     /// The leading small motion without dither.
     pub kick: Kick,
     /// Half the peak-to-peak deflection under the first load over the last tenth of the run; `None` for a run without duration.
@@ -74,6 +75,7 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
     study.as_system(DescribedSystem {
         actuator: None,
         design: None,
+        tolerance: None,
         units: UnitSystem::None,
         system,
         observe: observed_row(study),
@@ -93,7 +95,7 @@ pub fn at_rest(study: &DiscStudy) -> SystemStudy {
 /// Integrates the disc from its leading small motion, or from rest with the given numbers.
 ///
 /// # Errors
-/// As [`simulate::run`](crate::run::system::simulate::run); [`Failure::Failed`] without steady sliding.
+/// As [`crate::run::simulate::run`]; [`Failure::Failed`] without steady sliding.
 pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation, Failure> {
     let system = study.disc().system_of(study.parts());
     let begin = request.from.as_ref().map_or(0.0, |from| from.time);

@@ -12,8 +12,8 @@ use super::{NoiseResponse, NoisyContact, NoisyRun, number_of_runs};
 use crate::complaint::Failure;
 use crate::parallel::Parallel;
 use crate::run::system::has_equations;
+use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::response::{ResponseRequest, plan_of, refused, undefined};
-use crate::run::system::simulate::beyond_laws;
 use crate::run::system::start::{start_in_words, start_of};
 use crate::study::SystemStudy;
 

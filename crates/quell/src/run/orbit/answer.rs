@@ -11,7 +11,7 @@ use super::{FoundBy, FoundMotion, PeriodicResponse};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::system::simulate::beyond_laws;
+use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::{state_names, state_quantity};
 use crate::study::SystemStudy;
 use crate::words::{capital, digits, plural};

@@ -8,7 +8,8 @@ use quell_dynamics::response::{
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::simulate::{beyond_laws, failed_run, of_engine, put_means, slowest_period};
+use super::of_runs::{beyond_laws, failed_run, of_engine, put_means};
+use super::periods::slowest_period;
 use super::start::{start_in_words, start_of};
 use super::{failed, frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Failure};

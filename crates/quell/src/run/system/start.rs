@@ -2,6 +2,7 @@
 
 use quell_dynamics::motion::MotionStart;
 use quell_dynamics::motion::orbit::{base_state, sliding_state, squealing_state};
+use quell_model::system::Mechanical;
 use quell_model::units::{Quantity, measure};
 use quell_model::{Contact, System};
 
@@ -50,6 +51,14 @@ pub fn state_quantity(system: &System, place: usize) -> Option<Quantity> {
     }
     let displacements = system.structure.mechanical()?.size();
     Some(if place < displacements { Quantity::Displacement } else { Quantity::Velocity })
+}
+
+/// The observed displacement of a state and its velocity; no velocity for first-order equations.
+pub(crate) fn observed_state(study: &SystemStudy, state: &[f64]) -> (f64, Option<f64>) {
+    let row = study.observed_row();
+    let over = |state: &[f64]| row.iter().zip(state).map(|(weight, x)| weight * x).sum();
+    let velocities = study.system().structure.mechanical().map(Mechanical::size);
+    (over(state), velocities.map(|from| over(&state[from..])))
 }
 
 /// A dataset with one column for each number of a state, over states in its order.

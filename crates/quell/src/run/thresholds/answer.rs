@@ -15,7 +15,7 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::criticality;
 use crate::run::system::attractor::put_state;
-use crate::run::system::simulate::beyond_laws;
+use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::{state_columns, state_names};
 use crate::run::system::value_at;
 use crate::study::SystemStudy;

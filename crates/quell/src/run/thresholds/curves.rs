@@ -15,7 +15,7 @@ use crate::dataset::{Array, Dataset};
 use crate::document::given_number;
 use crate::fields::Fields;
 use crate::run::criticality;
-use crate::run::system::simulate::beyond_laws;
+use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::{state_columns, state_names};
 use crate::run::system::tracked::{TrackRequest, understood};
 use crate::run::system::{failed, has_equations, value_at};

@@ -1,12 +1,12 @@
-//! The datasets of a simulated motion: its samples and its events.
+//! The datasets of a motion: its samples and its events.
 
 use quell_dynamics::motion::{ContactPhase, MotionSampler};
 use quell_model::units::Quantity;
 
+use super::Simulation;
 use super::history::{KINDS, code};
-use super::simulate::SystemSimulation;
-use super::start::{state_names, state_quantity};
 use crate::dataset::{Array, Dataset};
+use crate::run::system::start::{observed_state, state_names, state_quantity};
 use crate::study::SystemStudy;
 
 /// What a contact does, as words with their codes.
@@ -29,15 +29,27 @@ fn unit_of(study: &SystemStudy, quantity: Option<Quantity>) -> &'static str {
     quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1")
 }
 
-/// Names of the columns of a state; the axis has the name `time`.
+/// Names of the columns of a state; the first columns have the other names.
 fn columns(study: &SystemStudy) -> Vec<String> {
-    let taken = |name: String| if name == "time" { "displacement.time".to_owned() } else { name };
+    let taken = |name: String| match name.as_str() {
+        "time" | "displacement" | "velocity" => format!("displacement.{name}"),
+        _ => name,
+    };
     state_names(study.system()).into_iter().map(taken).collect()
 }
 
-/// Adds a column for every number of the states.
+/// Adds columns of the observed displacement and its velocity, and one for every number of the states.
 fn with_states(mut dataset: Dataset, study: &SystemStudy, states: &[f64]) -> Dataset {
     let size = columns(study).len();
+    let observed: Vec<(f64, Option<f64>)> =
+        states.chunks(size).map(|state| observed_state(study, state)).collect();
+    let unit = |quantity| unit_of(study, Some(quantity));
+    let displacements = observed.iter().map(|(displacement, _)| *displacement).collect();
+    dataset = dataset.with(Array::new("displacement", unit(Quantity::Displacement), displacements));
+    if study.system().structure.mechanical().is_some() {
+        let rates = observed.iter().filter_map(|(_, rate)| *rate).collect();
+        dataset = dataset.with(Array::new("velocity", unit(Quantity::Velocity), rates));
+    }
     for (place, name) in columns(study).into_iter().enumerate() {
         let unit = unit_of(study, state_quantity(study.system(), place));
         dataset = dataset.with(Array::new(name, unit, column(states, place, size)));
@@ -45,7 +57,7 @@ fn with_states(mut dataset: Dataset, study: &SystemStudy, states: &[f64]) -> Dat
     dataset
 }
 
-impl SystemSimulation {
+impl Simulation {
     /// The sampled motion: every number of the state, and slip velocity, friction, load and phase of every contact.
     pub fn dataset(&self, study: &SystemStudy, samples: &MotionSampler) -> Dataset {
         let axis = Array::new("time", unit_of(study, Some(Quantity::Time)), samples.times.clone());

@@ -1,4 +1,4 @@
-//! What a run of a system keeps while it is integrated: events, their counts, and the intervals of stick and separation.
+//! What a run keeps while it is integrated: events, their counts, and the intervals of stick and separation.
 
 use quell_dynamics::motion::{
     ContactPhase, MotionEvent, MotionObserver, MotionSegment, RecordedEvent,

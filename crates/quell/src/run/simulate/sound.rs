@@ -3,22 +3,24 @@
 use quell_dynamics::motion::{MotionEnd, MotionObserver, MotionSegment, MotionStart};
 
 use crate::complaint::Complaint;
+use crate::run::system::periods::lowest_natural;
+use crate::run::system::start::observed_state;
 use crate::sound::{RecordedMotion, Sound, SoundOptions, SoundPlan, VelocityTap};
 use crate::study::SystemStudy;
 
-/// The plan for the sound of a run of some duration.
+/// The plan for the sound of a run.
 ///
 /// # Errors
 /// As [`SoundPlan::new`].
 pub(super) fn plan(
     study: &SystemStudy,
-    duration: f64,
+    (from, until): (f64, f64),
     options: SoundOptions,
 ) -> Result<SoundPlan, Box<Complaint>> {
     let motion = RecordedMotion {
-        duration,
+        duration: until - from,
         time_per_second: study.time_per_second().unwrap_or(RecordedMotion::AUDIBLE),
-        natural_frequency: None,
+        natural_frequency: lowest_natural(study, from),
         fastest_forcing: study.system().acting_frequencies().reduce(f64::max),
     };
     SoundPlan::new(&motion, options)
@@ -30,20 +32,16 @@ pub(super) struct MotionSoundTap {
     row: Vec<f64>,
 }
 
-fn observed(row: &[f64], state: &[f64]) -> f64 {
-    row.iter().zip(state).map(|(r, x)| r * x).sum()
-}
-
 impl MotionSoundTap {
-    /// For a run from `start`, of a row over the coordinates, or over the states of first-order equations.
-    pub(super) fn new(start: &MotionStart, row: &[f64], plan: Option<&SoundPlan>) -> Self {
-        let tap = VelocityTap::new(start.time, observed(row, &start.state), plan);
-        Self { tap, row: row.to_vec() }
+    /// For a run from `start`.
+    pub(super) fn new(study: &SystemStudy, start: &MotionStart, plan: Option<&SoundPlan>) -> Self {
+        let (begin, _) = observed_state(study, &start.state);
+        Self { tap: VelocityTap::new(start.time, begin, plan), row: study.observe() }
     }
 
     /// The sound of the run that has ended here.
-    pub(super) fn finish(self, end: &MotionEnd) -> Option<Sound> {
-        self.tap.finish(observed(&self.row, &end.state))
+    pub(super) fn finish(self, study: &SystemStudy, end: &MotionEnd) -> Option<Sound> {
+        self.tap.finish(observed_state(study, &end.state).0)
     }
 }
 
