@@ -99,7 +99,7 @@ impl Simulation {
     pub fn manoeuvre_sentence(&self, study: &SystemStudy) -> Option<String> {
         let found = self.manoeuvre.as_ref()?;
         let words = |quantity, value| in_units_of(study, quantity, value);
-        Some(found.sentence("The observed row", words))
+        Some(found.sentence("The observed motion", words))
     }
 
     /// The sound in one sentence, if it was requested.
