@@ -46,7 +46,8 @@ impl Presented<DiscSetup> for DiscSimulation {
     }
 
     fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
-        let figure = self.motion.figure(&self.system)?;
+        // The system of a disc has the friction of its dither: without it, it is no disc without dither.
+        let figure = self.motion.figure_with(&self.system, false)?;
         Some(figure.map(|figure| picture::disc::of_disc(figure, study)))
     }
 }

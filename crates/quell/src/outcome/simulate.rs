@@ -65,14 +65,25 @@ impl Presented<SystemSetup> for Simulation {
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        let is_whole = self.request.undithered && self.request.times.is_none();
+        self.figure_with(study, true)
+    }
+}
+
+impl Simulation {
+    /// The picture, with the motion from the same start without dither or not.
+    pub(crate) fn figure_with(
+        &self,
+        study: &SystemStudy,
+        undithered: bool,
+    ) -> Option<Result<Figure, Failure>> {
+        let is_whole = self.request.undithered == undithered && self.request.times.is_none();
         if let (Some(samples), true) = (&self.samples, is_whole) {
             return Some(Ok(picture::simulate(study, self, samples)));
         }
         let request = MotionRequest {
             until: Some(self.end.time),
             samples: true,
-            undithered: true,
+            undithered,
             times: None,
             ..self.request.clone()
         };

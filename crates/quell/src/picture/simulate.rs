@@ -42,7 +42,8 @@ impl Observed {
 /// The picture of a sampled motion, with that from the same start without dither where it is known.
 pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler) -> Figure {
     let with = Observed::of(study, samples);
-    let without = done.undithered.as_ref().map(|samples| Observed::of(study, samples));
+    let without = done.undithered.as_ref().and_then(|samples| samples.as_ref().ok());
+    let without = without.map(|samples| Observed::of(study, samples));
     let both = || [Some(&with), without.as_ref()].into_iter().flatten();
     let places = both().flat_map(|motion| motion.displacement.iter().copied());
     let x = Ruler::of_system(study, Quantity::Displacement, places);

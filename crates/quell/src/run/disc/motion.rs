@@ -114,12 +114,20 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
         Some(until) => until,
         None => begin + usual_duration(&system, &kick)?,
     };
-    let request_of_system = MotionRequest { until: Some(until), ..request.clone() };
+    let request_of_system =
+        MotionRequest { until: Some(until), undithered: false, ..request.clone() };
     let from = until - TAIL * (until - begin);
     let mut watch = RowWatch::new(observed_row(study), kick.middle, kick.levels.clone(), from);
     let done = run_observed(&system, &request_of_system, &mut watch);
     let ran_away = watch.largest() > RUNAWAY * kick.amplitude.max(f64::MIN_POSITIVE);
-    let motion = done.map_err(|failure| if ran_away { unbounded(&failure) } else { failure })?;
+    let motion = done.map_err(|failure| match failure {
+        failure if ran_away => unbounded(&failure),
+        Failure::Wrong(wrong) if request.until.is_none() => {
+            let why = format!("the usual duration is refused: {wrong}; --until sets another");
+            overflowed("simulate", why)
+        }
+        failure => failure,
+    })?;
     Ok(DiscSimulation {
         system,
         motion,

@@ -124,6 +124,9 @@ impl Simulation {
             let words = |quantity, value| in_units_of(study, quantity, value);
             warnings.extend(sound.warnings(words));
         }
+        if let Some(Err(why)) = &self.undithered {
+            warnings.push(format!("the motion without dither is not shown: {why}"));
+        }
         if self.history.lost > 0 {
             let kept = self.history.events.len();
             warnings.push(format!("only the first {kept} events are kept; all are counted"));

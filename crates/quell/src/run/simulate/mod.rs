@@ -90,8 +90,8 @@ pub struct Simulation {
     pub means: Option<Vec<ContactMeans>>,
     /// Samples at equal steps, both ends included, if requested.
     pub samples: Option<MotionSampler>,
-    /// Samples of the motion without dither, if requested and the study has dither.
-    pub undithered: Option<MotionSampler>,
+    /// Samples of the motion without dither, if requested and the study has dither; or the reason for their absence.
+    pub undithered: Option<Result<MotionSampler, Failure>>,
     /// Bound on the last terms of a step, relative to the numbers of the state; of one mass relative to the load.
     pub tolerance: f64,
     /// Whether the samples are too coarse to resolve the fastest motion.
@@ -172,11 +172,8 @@ pub(crate) fn run_observed(
         }
         sampler
     };
-    let undithered = if request.undithered && system.is_dithered() {
-        Some(without_dither(study, &start, until, sampling(), finished)?)
-    } else {
-        None
-    };
+    let undithered = (request.undithered && system.is_dithered())
+        .then(|| without_dither(study, &start, until, sampling(), finished));
     let beyond = beyond_laws(study, |contact| meter.largest_slip(contact));
     let manoeuvre = manoeuvre(study, trace, start.time);
     Ok(Simulation {
