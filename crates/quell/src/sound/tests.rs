@@ -151,7 +151,9 @@ fn the_transposition_is_stated() {
     let natural = RecordedMotion { natural_frequency: Some(TAU * 200.0), ..motion };
     assert_eq!(
         said(&natural, false, 2.0),
-        format!("The sound lasts 0.25 s (transposition 2, ω₀ at 400 Hz){rest}")
+        format!(
+            "The sound lasts 0.25 s (transposition 2, lowest natural frequency at 400 Hz){rest}"
+        )
     );
 }
 
