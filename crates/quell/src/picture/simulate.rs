@@ -53,7 +53,7 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
         let times = motion.times.iter().map(|time| clock.place(*time));
         times.zip(motion.displacement.iter().map(|value| x.place(*value))).collect()
     };
-    let curves = curves(study, [Some(&with), without.as_ref()], &over_time);
+    let curves = curves(study, &with, without.as_ref(), &over_time);
     let ends = both().flat_map(|motion| &motion.displacement).map(|value| x.place(*value));
     let ends = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
         (f64::min(least, x), f64::max(most, x))
@@ -82,7 +82,7 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
             let rates = motion.velocity.iter().flatten().map(|rate| v.place(*rate));
             motion.displacement.iter().map(|value| x.place(*value)).zip(rates).collect()
         };
-        let curves = self::curves(study, [Some(&with), without.as_ref()], &plane);
+        let curves = self::curves(study, &with, without.as_ref(), &plane);
         let surface = surface.map(|surface| {
             ReferenceLine::horizontal(v.place(surface)).label("velocity of the surface")
         });
@@ -98,18 +98,15 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
 /// The curves with and without dither, the latter below the former.
 fn curves(
     study: &SystemStudy,
-    [with, without]: [Option<&Observed>; 2],
+    with: &Observed,
+    without: Option<&Observed>,
     points: &dyn Fn(&Observed) -> Vec<(f64, f64)>,
 ) -> Vec<Polyline> {
-    let without = without
-        .map(|motion| Polyline::new(PlotRole::Undithered, points(motion)).label("without dither"));
-    let is_alone = without.is_none();
     let role = if study.system().inputs.is_empty() { PlotRole::Exact } else { PlotRole::Dithered };
-    let with = with.map(|motion| {
-        let curve = Polyline::new(role, points(motion));
-        if is_alone { curve } else { curve.label("with dither") }
-    });
-    without.into_iter().chain(with).collect()
+    let with = Polyline::new(role, points(with));
+    let Some(without) = without else { return vec![with] };
+    let without = Polyline::new(PlotRole::Undithered, points(without));
+    vec![without.label("without dither"), with.label("with dither")]
 }
 
 /// Velocity of the surface on which the observed displacement slides, where it is the displacement of the only contact.

@@ -23,15 +23,13 @@ use super::system::periods::{natural_period, slowest_period};
 use super::system::start::{StateNumbers, start_with};
 use super::system::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
+use crate::quantity::MOST_TIME;
 use crate::sound::{Sound, SoundOptions};
 use crate::study::SystemStudy;
 use crate::words::digits;
 
 /// Periods of the slowest oscillation that a run lasts if no duration is given.
 pub const DEFAULT_PERIODS: f64 = 100.0;
-
-/// Longest run over the time scale of the fastest motion.
-const MOST_TIME: f64 = 1e9;
 
 /// Samples per period of the fastest dither and of the fastest motion of the structure.
 const SAMPLES_PER_PERIOD: f64 = 64.0;
@@ -135,6 +133,7 @@ pub(crate) fn run_observed(
     let plan = request.sound.map(|options| sound::plan(study, (start.time, until), options));
     let plan = plan.transpose()?;
     sample_times::are_within(start.time, until, request.times.as_deref())?;
+    // That of a belt, whose time scale is 1. The engine refuses what takes too many steps; with more, it would begin runs of days.
     let longest = MOST_TIME * motion.time_scale();
     if until - start.time > longest {
         let allowed = format!(
