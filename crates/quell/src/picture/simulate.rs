@@ -6,12 +6,13 @@ use quell_model::units::Quantity;
 use super::caption::caption_of_system;
 use super::manoeuvre::around_response;
 use super::ruler::Ruler;
-use super::system_motion::{observed, time_axis};
+use super::system_motion::time_axis;
 use crate::plot::{
     Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
 };
 use crate::run::simulate::Simulation;
 use crate::run::simulate::history::EventHistory;
+use crate::run::system::start::observed_states;
 use crate::study::SystemStudy;
 use crate::words::capital;
 
@@ -34,7 +35,7 @@ struct Observed {
 
 impl Observed {
     fn of(study: &SystemStudy, samples: &MotionSampler) -> Self {
-        let (displacement, velocity) = observed(study, samples);
+        let (displacement, velocity) = observed_states(study, &samples.states);
         Self { times: samples.times.clone(), displacement, velocity }
     }
 }

@@ -1,6 +1,5 @@
-//! The picture of a steady response of a system, and the observed motion that it shares with others.
+//! The picture of a steady response of a system, and the axis of time that it shares with others.
 
-use quell_dynamics::motion::MotionSampler;
 use quell_dynamics::response::SystemRecord;
 use quell_model::units::Quantity;
 
@@ -24,23 +23,6 @@ pub(super) fn time_axis(study: &SystemStudy, (from, to): (f64, f64)) -> (PlotAxi
     let ruler = Ruler::of_system(study, Quantity::Time, [from, to]);
     let axis = ruler.axis("time", "t").between(ruler.place(from), ruler.place(to));
     (axis, ruler)
-}
-
-/// The observed displacement and its velocity at every sample; no velocity for first-order equations.
-pub(super) fn observed(
-    study: &SystemStudy,
-    samples: &MotionSampler,
-) -> (Vec<f64>, Option<Vec<f64>>) {
-    let row = study.observe();
-    let size = study.system().state_size();
-    let of = |offset: usize| -> Vec<f64> {
-        let states = samples.states.chunks(size);
-        states
-            .map(|state| row.iter().zip(&state[offset..]).map(|(weight, x)| weight * x).sum())
-            .collect()
-    };
-    let velocity = study.system().structure.mechanical().map(|structure| of(structure.size()));
-    (of(0), velocity)
 }
 
 /// The picture of a steady response: the end of the record and the spectrum, with and without dither.

@@ -6,7 +6,7 @@ use quell_model::units::Quantity;
 use super::Simulation;
 use super::history::{KINDS, code};
 use crate::dataset::{Array, Dataset};
-use crate::run::system::start::{observed_state, state_names, state_quantity};
+use crate::run::system::start::{observed_states, state_names, state_quantity};
 use crate::study::SystemStudy;
 
 /// What a contact does, as words with their codes.
@@ -41,13 +41,10 @@ fn columns(study: &SystemStudy) -> Vec<String> {
 /// Adds columns of the observed displacement and its velocity, and one for every number of the states.
 fn with_states(mut dataset: Dataset, study: &SystemStudy, states: &[f64]) -> Dataset {
     let size = columns(study).len();
-    let observed: Vec<(f64, Option<f64>)> =
-        states.chunks(size).map(|state| observed_state(study, state)).collect();
+    let (displacements, rates) = observed_states(study, states);
     let unit = |quantity| unit_of(study, Some(quantity));
-    let displacements = observed.iter().map(|(displacement, _)| *displacement).collect();
     dataset = dataset.with(Array::new("displacement", unit(Quantity::Displacement), displacements));
-    if study.system().structure.mechanical().is_some() {
-        let rates = observed.iter().filter_map(|(_, rate)| *rate).collect();
+    if let Some(rates) = rates {
         dataset = dataset.with(Array::new("velocity", unit(Quantity::Velocity), rates));
     }
     for (place, name) in columns(study).into_iter().enumerate() {

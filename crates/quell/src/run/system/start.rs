@@ -61,6 +61,15 @@ pub(crate) fn observed_state(study: &SystemStudy, state: &[f64]) -> (f64, Option
     (over(state), velocities.map(|from| over(&state[from..])))
 }
 
+/// The same of states one after the other.
+pub(crate) fn observed_states(study: &SystemStudy, states: &[f64]) -> (Vec<f64>, Option<Vec<f64>>) {
+    let states = states.chunks(study.system().state_size());
+    let (displacements, rates): (Vec<f64>, Vec<Option<f64>>) =
+        states.map(|state| observed_state(study, state)).unzip();
+    let has_rates = study.system().structure.mechanical().is_some();
+    (displacements, has_rates.then(|| rates.into_iter().flatten().collect()))
+}
+
 /// A dataset with one column for each number of a state, over states in its order.
 pub(in crate::run) fn state_columns(
     dataset: Dataset,
