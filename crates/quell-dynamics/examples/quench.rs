@@ -6,7 +6,7 @@ use std::error::Error;
 use std::fmt::Write as _;
 
 use quell_dynamics::orbit::threshold::local;
-use quell_dynamics::response::{Solver, respond};
+use quell_dynamics::response::{ResponsePlan, Solver, respond};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Averaging, critical_amplitudes};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
@@ -40,7 +40,8 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
     }
     for amplitude in [0.3, 0.4, 0.52] {
         let belt = belt.with_amplitude(0, amplitude).map_err(|error| format!("{error:?}"))?;
-        let response = respond(&belt, Start::REST, &Solver::default())?;
+        let plan = ResponsePlan::from(&Solver::default());
+        let response = respond(&belt.system(), &Start::REST.into(), &plan)?;
         let left = response.residual_vibration?;
         writeln!(text, "from rest, D = {amplitude}: {:.1} % of the squeal is left", 100.0 * left)?;
     }

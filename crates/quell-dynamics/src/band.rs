@@ -12,6 +12,10 @@ use quell_model::profile::Wave;
 /// its second harmonic. Lower, vibration would be missed; higher, a slow dither's own response would count as slow vibration.
 pub const BAND_END: f64 = 1.9;
 
+/// Least upper end of the band of one mass, in ω₀: self-excited vibration is at about the natural frequency, 1. If the band ended lower, a
+/// vibration outside it would be reported as quenched.
+pub(crate) const LEAST_BAND_END: f64 = 1.5;
+
 /// Angular frequency of the vibration of a system about steady sliding without dither: of the small motions that oscillate, that which
 /// grows fastest or decays slowest; without steady sliding, of the structure without its contacts. `None` where nothing oscillates.
 pub fn vibration_frequency(system: &System) -> Option<f64> {

@@ -2,8 +2,7 @@
 //!
 //! [`motion`] is that of any system; the other modules have one mass on a moving belt with dither, [`response`] both.
 //!
-//! * [`simulation`]: event-exact trajectories by adaptive Taylor series; [`belt_motion`] those of every belt, also one whose drive,
-//!   load or dither varies in time;
+//! * [`simulation`]: event-exact trajectories by adaptive Taylor series;
 //! * [`orbit`]: periodic responses, their Floquet multipliers, exact thresholds;
 //! * [`attractor`]: where runs settle, rotation numbers, basins;
 //! * [`mean_friction`]: the average of friction with a state of its own, under a prescribed slip;
@@ -11,7 +10,6 @@
 
 pub mod attractor;
 mod band;
-pub mod belt_motion;
 mod contraction;
 mod decay;
 pub mod mean_friction;

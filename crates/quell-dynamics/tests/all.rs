@@ -32,3 +32,12 @@ mod state_variation;
 mod threshold_windows;
 mod traps;
 mod work_balance;
+
+use quell_dynamics::response::{ResponsePlan, Solver, SteadyResponse, respond};
+use quell_dynamics::simulation::Start;
+use quell_model::Belt;
+
+/// The steady response of a belt from a start.
+fn response_of(belt: &Belt, start: Start, solver: &Solver) -> SteadyResponse {
+    respond(&belt.system(), &start.into(), &ResponsePlan::from(solver)).expect("no stall")
+}

@@ -9,7 +9,7 @@ use quell_dynamics::motion::orbit::{sliding_state, squealing_state};
 use quell_dynamics::orbit::cycle::{FreeEnd, cycles, free_end, keeps_vibrating};
 use quell_dynamics::orbit::threshold::{self, local_thresholds};
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding, near};
-use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined, respond};
+use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::InitialState;
 use quell_model::{LawKind, System};
@@ -18,6 +18,8 @@ use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};
 
 use crate::orbits::switches;
+
+use crate::response_of;
 
 /// A section that is a single state up to rounding closes after any number of periods; its period is one.
 #[test]
@@ -155,8 +157,8 @@ fn every_effect_is_recognised() {
         (fast.with_dither(sine(3.5, 10.0)), Start::REST, Effect::Causes),
         (fast.with_dither(sine(3.5, 10.0)), base.start, Effect::Quiet),
     ] {
-        let found = respond(&belt, start, &solver).expect("no stall");
-        assert_eq!(found.effect, effect, "{:?} {:?}", belt.dithers(), found.ending);
+        let found = response_of(&belt, start, &solver);
+        assert_eq!(found.effect, effect, "{:?} {:?}", belt.dithers(), found.dithered.ending);
         let quiet = matches!(effect, Effect::Causes | Effect::Quiet);
         assert_eq!(found.residual_vibration.is_err(), quiet);
         if quiet {

@@ -1,6 +1,6 @@
 //! A run has the same bits alone, in any lane, next to any other runs, on any instruction set.
 
-use quell_dynamics::response::{Observables, ResponseCase, Solver, compare_many, respond};
+use quell_dynamics::response::{Observables, ResponseCase, Solver, compare_many};
 use quell_dynamics::simulation::{
     Event, EventRecorder, FinalState, InstructionSet, Sample, Sampler, SimulationRun, Start,
     simulate, simulate_many_with,
@@ -9,6 +9,8 @@ use quell_model::{Belt, Direction, LawKind, Waveform};
 use quell_zoo::belt::belt;
 use quell_zoo::dither::{at_phase, dither};
 use quell_zoo::law::build;
+
+use crate::response_of;
 
 const TOLERANCE: f64 = 1e-11;
 
@@ -134,21 +136,35 @@ fn runs_without_observers_have_the_same_bits() {
     }
 }
 
+/// A point of a map is the response of its belt: what both measure agrees where the run has settled on the motion that is found.
 #[test]
 fn a_point_of_a_map_is_the_response_of_its_belt() {
-    let solver = Solver { tolerance: 1e-10, settle: 30.0, record_periods: 6 };
-    let cases: Vec<ResponseCase> =
-        cases().into_iter().map(|(belt, start, _)| ResponseCase { belt, start }).collect();
+    let solver = Solver { tolerance: 1e-12, settle: 600.0, record_periods: 30 };
+    let cases: Vec<ResponseCase> = cases()
+        .into_iter()
+        .map(|(belt, start, _)| ResponseCase { belt, start: Start { time: 0.0, ..start } })
+        .collect();
     let compared = compare_many(&cases, &solver, Observables { dither_cost: true });
+    let mut settled = 0;
     for (case, compared) in cases.iter().zip(compared) {
-        let alone = respond(&case.belt, case.start, &solver).expect("no stall");
+        let alone = response_of(&case.belt, case.start, &solver);
         let compared = compared.expect("no stall");
-        assert_eq!(compared.residual_vibration(), alone.residual_vibration, "{:?}", case.belt);
-        assert_eq!(compared.dithered.lines.whole, alone.amplitude);
-        assert_eq!(compared.dithered.stick_fraction, alone.stick_fraction);
-        assert_eq!(compared.dithered.mean_friction, alone.mean_friction);
-        assert_eq!(compared.dithered.dither_power, alone.dither_power);
-        assert_eq!(compared.dithered.dither_stroke, alone.dither_stroke);
-        assert_eq!(compared.settled(), alone.settled);
+        let what = format!("{:?}", case.belt);
+        if !compared.settled() || alone.dithered.ending.period().is_none() {
+            continue;
+        }
+        settled += 1;
+        let near = |a: f64, b: f64, error: f64| {
+            assert!((a - b).abs() <= error * a.abs().max(b.abs()).max(1e-9), "{what}: {a} {b}")
+        };
+        near(compared.dithered.lines.whole, alone.dithered.lines.whole, 1e-4);
+        near(compared.undithered.lines.whole, alone.undithered.lines.whole, 1e-3);
+        near(compared.dithered.mean_friction, alone.dithered.contacts[0].friction, 2e-2);
+        near(compared.dithered.minimum_normal_load, alone.dithered.contacts[0].least_load, 1e-7);
+        let cost = alone.dithered.inputs.first().and_then(|cost| cost.as_ref().ok());
+        if let Some((stroke, cost)) = compared.dithered.dither_stroke.zip(cost) {
+            near(stroke, cost.stroke, 1e-4);
+        }
     }
+    assert!(settled > 3, "{settled}");
 }

@@ -9,6 +9,7 @@ use quell::document::{Node, Table};
 use quell::run::basins::StartLayout;
 use quell::run::bifurcation::SweepRequest;
 use quell::run::moment::at_time;
+use quell::run::response::ResponseTexts;
 use quell::run::varied::Range;
 use quell::study::Files;
 use quell::{Change, Complaints, Failure, Study};
@@ -23,7 +24,7 @@ use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
     actuator, atlas, attractor, basins, bifurcation, check, cite, compare, design, fit, friction,
     map, modes, orbit, probability, report, resonances, response, simulate, sketch, stability,
-    thresholds, waveforms, window,
+    thresholds, waveforms,
 };
 use crate::{call, convert, errors};
 
@@ -302,12 +303,6 @@ impl NativeStudy {
         convert::to_python(py, &steady.document())
     }
 
-    /// What a run does between two of its times.
-    fn window(&self, py: Python<'_>, start: String, end: String) -> PyResult<NativeAnswer> {
-        let study = self.study();
-        call::run(py, move || window::run(&study, (&start, &end)))
-    }
-
     /// One run in which a drive, a load or an amplitude changes slowly.
     fn ramp(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
@@ -320,36 +315,28 @@ impl NativeStudy {
         self.inner.files().folder().to_owned()
     }
 
-    /// `seeds`: number of runs under noise; `settle` and `record`: times of the response of a system.
-    #[pyo3(signature = (seeds, settle, record))]
-    fn response_of_seeds(
-        &self,
-        py: Python<'_>,
-        seeds: Option<usize>,
-        settle: Option<String>,
-        record: Option<String>,
-    ) -> PyResult<NativeAnswer> {
-        let study = self.study();
-        let times =
-            move || response::of_seeds(&study, seeds, (settle.as_deref(), record.as_deref()));
-        call::run(py, times)
-    }
-
     /// Whether a dither is noise.
     fn is_noise(&self) -> bool {
         self.study().noise().is_some()
     }
 
-    /// `settle` and `record`: times of the response of a system.
-    #[pyo3(signature = (settle, record))]
+    /// `settle` and `record`: times of the response; `window`: two times of a run; `seeds`: number of runs under noise.
+    #[pyo3(signature = (settle, record, window, seeds))]
     fn response(
         &self,
         py: Python<'_>,
         settle: Option<String>,
         record: Option<String>,
+        window: Option<(String, String)>,
+        seeds: Option<usize>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || response::run(&study, (settle.as_deref(), record.as_deref())))
+        call::run(py, move || {
+            let window = window.as_ref().map(|(from, to)| (from.as_str(), to.as_str()));
+            let texts =
+                ResponseTexts { settle: settle.as_deref(), record: record.as_deref(), window };
+            response::run(&study, texts, seeds)
+        })
     }
 
     /// `after`: name of a start; or `start`: a state. The run from there is followed to its response.

@@ -3,7 +3,7 @@
 //! Rows: x(τ) and x′(τ) from rest, and the spectral amplitudes of the steady record (settling time discarded, mean removed,
 //! Hann window). One column for each amplitude of the study's sweep.
 
-use quell_dynamics::response::{BAND_END, Spectrum, SteadyResponse, respond};
+use quell_dynamics::response::{BAND_END, ResponsePlan, Spectrum, SteadyResponse, respond};
 use quell_dynamics::simulation::{Sample, Sampler, simulate};
 use quell_model::{Belt, Direction, LawKind};
 
@@ -45,7 +45,8 @@ pub(super) fn cases(source: &EntrySource) -> Result<Vec<ResponseColumn>, Failure
         .map(|amplitude| {
             let study = study.with("dither.amplitude", amplitude)?;
             let start = run::start(&study)?;
-            let response = respond(study.belt(), start, study.solver())
+            let plan = ResponsePlan::from(study.solver());
+            let response = respond(&study.belt().system(), &start.into(), &plan)
                 .map_err(|error| failed(source.name, &error))?;
             Ok(ResponseColumn { study, amplitude, response })
         })
@@ -63,12 +64,12 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     histories.extend(columns_of("undithered", &undithered));
     let top = dither.frequency_ratio * 1.25;
     let shown = |response: &SteadyResponse| {
-        response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count()
+        response.dithered.spectrum.frequencies().take_while(|ω| *ω <= top).count()
     };
     let Some(first) = cases.first().map(|case| &case.response) else {
         return Err(failed(source.name, &"it has no amplitude"));
     };
-    let (spectrum, without) = (&first.record.spectrum, &first.undithered_record.spectrum);
+    let (spectrum, without) = (&first.dithered.spectrum, &first.undithered.spectrum);
     let mut spectra = vec![
         (
             "frequency".to_owned(),
@@ -86,7 +87,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         let samples = history(source, &case.study, case.study.belt(), step)?;
         let name = letter(index);
         histories.extend(columns_of(&name.to_string(), &samples));
-        let amplitudes = &case.response.record.spectrum.amplitudes()[..shown(first)];
+        let amplitudes = &case.response.dithered.spectrum.amplitudes()[..shown(first)];
         spectra.push((format!("{name}_amplitude"), "length", amplitudes.to_vec()));
         let [displacement, velocity] = histories_of(case, name, &samples, &undithered);
         rows[0].push(displacement);
@@ -159,7 +160,7 @@ fn time_axis() -> PlotAxis {
 }
 
 fn spectrum_panel(case: &ResponseColumn, top: f64) -> Panel {
-    let SteadyResponse { record, undithered_record, .. } = &case.response;
+    let SteadyResponse { dithered, undithered, .. } = &case.response;
     let curve = |role, spectrum: &Spectrum| {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
         let points: Vec<(f64, f64)> =
@@ -170,8 +171,8 @@ fn spectrum_panel(case: &ResponseColumn, top: f64) -> Panel {
         PlotAxis::new("frequency").symbol("ω").between(0.0, top),
         PlotAxis::new("amplitude").symbol("|X(ω)|").log().between(FLOOR, 0.5),
     )
-    .with(curve(PlotRole::Undithered, &undithered_record.spectrum))
-    .with(curve(PlotRole::Dithered, &record.spectrum).width(1.1))
+    .with(curve(PlotRole::Undithered, &undithered.spectrum))
+    .with(curve(PlotRole::Dithered, &dithered.spectrum).width(1.1))
     .with(ReferenceLine::vertical(case.study.belt().dithers()[0].frequency_ratio))
 }
 
@@ -202,10 +203,7 @@ fn caption(source: &EntrySource, study: &BeltStudy, response: &SteadyResponse) -
         Direction::Tangential => ("tangential", "R_T"),
         Direction::Normal => ("normal", "R_N"),
     };
-    let fundamental = match (
-        belt.friction().kind(),
-        fundamental(&response.undithered_record.spectrum),
-    ) {
+    let fundamental = match (belt.friction().kind(), fundamental(&response.undithered.spectrum)) {
         (LawKind::Stribeck, Some(frequency)) => {
             format!(
                 " The fundamental frequency without dither, printed as 0.666 $ω_0$, is {frequency:.3} $ω_0$."

@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release --package quell --example response`
 
-use quell::outcome::{Answered, Outcome};
-use quell::run::response;
+use quell::kind::verbs;
+use quell::run::response::ResponseRequest;
 use quell::{Failure, Study};
 
 /// A Stribeck belt under a fast tangential force.
@@ -29,9 +29,9 @@ frequency_ratio = 10.0
 /// # Errors
 /// An invalid study; a run that cannot be computed.
 pub(crate) fn main() -> Result<(), Failure> {
-    let study = Study::parse(STUDY, &[])?.belt()?;
-    let steady = response::run(&study)?;
-    assert_eq!(steady.response.effect.name(), "quenches");
-    println!("{}", Answered::new(&study, steady).text());
+    let study = Study::parse(STUDY, &[])?;
+    let steady = verbs(&study).response(&ResponseRequest::default())?;
+    assert_eq!(steady.json()["effect"], "quenches");
+    println!("{}", steady.text());
     Ok(())
 }

@@ -91,14 +91,6 @@ pub(crate) fn refused_where_averaged(system: &System, verb: &str) -> Result<(), 
     Err(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed).into())
 }
 
-/// Warnings about the contact of a belt in any verb. Those of a system are among the warnings of its study.
-pub(crate) fn passivity(study: &BeltStudy) -> Vec<String> {
-    study.system().map_or_else(
-        |_| Vec::new(),
-        |system| crate::study::passivity::warnings(&system.contacts, study.units()),
-    )
-}
-
 /// Warnings where the average of the law without its state differs from that of the contact of a belt.
 pub(crate) fn rigid_average(belt: &Belt, slip_velocity: f64) -> Option<String> {
     let law = belt.friction();

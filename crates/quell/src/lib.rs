@@ -7,8 +7,9 @@
 //! # Does this dither quench the vibration, and at what cost?
 //!
 //! ```
-//! use quell::BeltStudy;
-//! use quell::run::response;
+//! use quell::Study;
+//! use quell::kind::verbs;
+//! use quell::run::response::ResponseRequest;
 //!
 //! # fn main() -> Result<(), quell::Failure> {
 //! let text = r#"
@@ -27,10 +28,10 @@
 //!     amplitude = 0.52
 //!     frequency_ratio = 10.0
 //! "#;
-//! let study = BeltStudy::parse(text, &[])?;
-//! let steady = response::run(&study)?;
-//! assert_eq!(steady.response.effect.name(), "quenches");
-//! println!("{}", steady.sentence(&study));
+//! let study = Study::parse(text, &[])?;
+//! let steady = verbs(&study).response(&ResponseRequest::default())?;
+//! assert_eq!(steady.json()["effect"], "quenches");
+//! println!("{}", steady.text());
 //! # Ok(())
 //! # }
 //! ```

@@ -2,10 +2,11 @@
 //! and ramps.
 
 use quell::Study;
+use quell::kind::moving_system;
 use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::noise_response;
-use quell::run::system::response::ResponseRequest;
+use quell::run::response::ResponseRequest;
 use quell::study::{BeltStudy, SystemStudy};
 use serde_json::Value as Json;
 
@@ -116,8 +117,9 @@ fn the_slow_vibration_of_a_belt() {
     // x″ + x = 0 at the cycle, up to the change of the frequency by damping, which vanishes there.
     close(number(&found["limit_cycle_frequency"]), 1.0, 1e-9, "frequency");
     close(number(&found["limit_cycle_amplitude"]), velocity, 1e-9, "amplitude");
-    let times = ResponseRequest { settle: Some(1500.0), record: Some(400.0) };
-    let exact = answer(&study, |verbs| verbs.response_after(times));
+    let times =
+        ResponseRequest { settle: Some(1500.0), record: Some(400.0), ..ResponseRequest::default() };
+    let exact = answer(&study, |verbs| verbs.response(&times));
     close(velocity, number(&exact["amplitude"]), 0.05, "response");
 }
 
@@ -133,8 +135,9 @@ fn the_slow_vibration_of_two_masses() {
     let study = SystemStudy::parse(&text, &[]).expect("valid");
     let found = answer(&study, |verbs| verbs.describing(0.3));
     assert_eq!(found["balanced_contact"], "pad", "{found}");
-    let times = ResponseRequest { settle: Some(1500.0), record: Some(600.0) };
-    let exact = answer(&study, |verbs| verbs.response_after(times));
+    let times =
+        ResponseRequest { settle: Some(1500.0), record: Some(600.0), ..ResponseRequest::default() };
+    let exact = answer(&study, |verbs| verbs.response(&times));
     close(number(&found["limit_cycle_amplitude"]), number(&exact["amplitude"]), 0.05, "amplitude");
     let size = |line: &Json| number(&line["amplitude"]);
     let peaks = exact["peaks"].as_array().expect("peaks").iter();
@@ -160,12 +163,21 @@ fn the_share_of_seeds() {
     let numbers = Numbers { damping: 0.005, load: 1.0, velocity: 0.1 };
     let solver = "[solver]\nsettle = 300\nrecord_periods = 30\n";
     let record = 30.0 * std::f64::consts::TAU;
-    let times = ResponseRequest { settle: Some(300.0), record: Some(record) };
+    let times = ResponseRequest {
+        settle: Some(300.0),
+        record: Some(record),
+        seeds: Some(3),
+        ..ResponseRequest::default()
+    };
     for (amplitude, quiet) in [(3.0, 1.0), (0.05, 0.0)] {
         let dither = format!("waveform = \"noise\"\nband = [8.0, 12.0]\namplitude = {amplitude:?}");
-        let one = noise_response::of_belt(&belt(numbers, &dither, solver), Some(3)).expect("runs");
+        let one = noise_response::run(
+            &moving_system(&Study::from(&belt(numbers, &dither, solver))).expect("a system"),
+            ResponseRequest { seeds: Some(3), ..ResponseRequest::default() },
+        )
+        .expect("runs");
         let study = system(numbers, &dither);
-        let other = noise_response::of_system(&study, Some(3), times).expect("runs");
+        let other = noise_response::run(&study, times).expect("runs");
         for found in [&one, &other] {
             assert_eq!(found.quiet().expect("a share").fraction, quiet);
             // The averaged growth rate has the sign of the simulated share.
@@ -183,7 +195,7 @@ fn the_share_of_seeds() {
         assert_eq!(one.runs[2].seed, other.runs[2].seed);
     }
     let periodic = system(LIGHT, "waveform = \"sine\"\namplitude = 2.0\nfrequency = 20.0");
-    assert!(noise_response::of_system(&periodic, Some(2), times).is_err());
+    assert!(noise_response::run(&periodic, times).is_err());
     // Every run ends quiet or not; there is no orbit.
     let study = system(numbers, "waveform = \"noise\"\nband = [8.0, 12.0]\namplitude = 3.0");
     assert!(verbs(&Study::from(&study)).attractor(&AttractorRequest::default()).is_err());

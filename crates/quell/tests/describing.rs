@@ -2,7 +2,7 @@
 
 use quell::Study;
 use quell::kind::verbs;
-use quell::run::response;
+use quell::run::response::ResponseRequest;
 use quell::study::BeltStudy;
 use serde_json::Value as Json;
 
@@ -33,8 +33,9 @@ fn the_limit_cycle_is_that_of_the_exact_response() {
         }
         let predicted = describing(&study, 0.4);
         let cycle = predicted["limit_cycle_amplitude"].as_f64().expect("a cycle");
-        let exact = response::run(&study).expect("a response");
-        let measured = exact.json(&study)["amplitude"].as_f64().expect("an amplitude");
+        let exact = verbs(&Study::from(&study)).response(&ResponseRequest::default());
+        let exact = exact.expect("a response").json();
+        let measured = exact["amplitude"].as_f64().expect("an amplitude");
         let off = cycle / measured - 1.0;
         assert!(off.abs() < 0.05, "{load} {velocity} {amplitude}: {cycle} {measured}");
     }

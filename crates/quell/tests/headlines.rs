@@ -9,6 +9,7 @@ use quell::outcome::Outcome;
 use quell::record::RecordRequest;
 use quell::run::decay::{self, DecayRequest};
 use quell::run::record_fit::{self, RecordFitRequest};
+use quell::run::response::ResponseRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::study::Change;
 use quell_numerics::random::SplitMix;
@@ -175,7 +176,7 @@ fn a_dither_in_the_band_of_the_vibration_is_not_called_quiet() {
         at("dither.frequency_hz", 13000.0),
     ];
     let study = Study::parse(&pad((13000.0, 40000.0), 5.0), &sets).expect("valid");
-    let response = verbs(&study).response().expect("a response").facts();
+    let response = verbs(&study).response(&ResponseRequest::default()).expect("a response").facts();
     assert!(residual >= number(&response["residual_vibration"]) * 0.999, "{facts} {response}");
 }
 
@@ -323,12 +324,14 @@ fn a_forced_vibration_is_not_quiet() {
     let text = "[system]\ncoordinates = [\"q\"]\nmass = [1.0]\ndamping = [[0.02]]\nstiffness = [[1.0]]\n[[contact]]\nname = \"rub\"\n\
                 tangent = { q = 1.0 }\nnormal_load = 0.3\nbelt_velocity = 0.05\n[contact.friction]\nlaw = \"coulomb\"\ncoefficient = 1.0\n\
                 [[dither]]\nat = { q = 1.0 }\nwaveform = \"sine\"\namplitude = 1.5\nfrequency = 0.9\n";
-    let facts = verbs(&study(text)).response().expect("a response").facts();
+    let facts =
+        verbs(&study(text)).response(&ResponseRequest::default()).expect("a response").facts();
     assert_eq!(facts["effect"], "causes", "{facts}");
     let (amplitude, half) = (number(&facts["amplitude"]), number(&facts["half_peak_to_peak"]));
     assert!(amplitude > 0.9 * half && half > 7.0, "{facts}");
     // At ten times the natural frequency it is followed in step, above the band.
     let fast = text.replace("frequency = 0.9", "frequency = 10.0");
-    let facts = verbs(&study(&fast)).response().expect("a response").facts();
+    let facts =
+        verbs(&study(&fast)).response(&ResponseRequest::default()).expect("a response").facts();
     assert_eq!(facts["effect"], "quiet", "{facts}");
 }

@@ -4,8 +4,9 @@
 
 use quell::kind::{moving_system, verbs};
 use quell::run::orbit::Wanted;
+use quell::run::response::ResponseRequest;
 use quell::run::simulate::{MotionRequest, Simulation};
-use quell::run::{basins, bifurcation, map, response, simulate, thresholds, varied};
+use quell::run::{basins, bifurcation, map, simulate, thresholds, varied};
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
 use quell_linear::averaging::{AveragedLaw, Averaging, Effective, FastMotion};
@@ -249,6 +250,11 @@ fn run_to(study: &BeltStudy, until: f64) -> Json {
     verbs(&study.into()).simulate(&MotionRequest::to(until)).expect("a run").json()
 }
 
+fn response(study: &BeltStudy) -> Json {
+    let found = verbs(&study.into()).response(&ResponseRequest::default());
+    found.expect("a response").json()
+}
+
 fn stability(study: &BeltStudy) -> Json {
     verbs(&study.into()).stability().expect("an answer").json()
 }
@@ -275,9 +281,7 @@ fn a_cubic_far_out_warns_in_the_study_s_units() {
         friction(&far, Some(&[far.belt().belt_velocity()])),
         verbs(&quell::Study::from(&far)).check().expect("valid").json(),
         run_to(&far, 20.0 / 1e3),
-        response::run(&set(si, &["solver.settle_s=0.1", "solver.record_periods=4"]))
-            .expect("a response")
-            .json(&far),
+        response(&set(si, &["solver.settle_s=0.1", "solver.record_periods=4"])),
         orbit(&far),
     ] {
         let said = warnings(&json);
@@ -319,8 +323,8 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     warns(&stability(&outside));
     quiet(&run_to(&inside, 40.0));
     warns(&run_to(&outside, 40.0));
-    quiet(&response::run(&inside).expect("a response").json(&inside));
-    warns(&response::run(&outside).expect("a response").json(&outside));
+    quiet(&response(&inside));
+    warns(&response(&outside));
     quiet(&orbit(&inside));
     warns(&orbit(&outside));
     let question = |to| thresholds::ThresholdsRequest {

@@ -8,6 +8,7 @@ use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
+use quell::run::response::ResponseRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
 use serde_json::Value as Json;
@@ -131,7 +132,7 @@ fn points_of_systems_are_the_answers_of_the_verbs() {
             } else {
                 assert_same(&found, "stick_fraction", point, &end["contacts"][0]["stick_fraction"]);
             }
-            let response = one.response().expect("a response").json();
+            let response = one.response(&ResponseRequest::default()).expect("a response").json();
             for fact in ["effect", "residual_vibration", "amplitude", "undithered_amplitude"] {
                 assert_same(&found, fact, point, &response[fact]);
             }
@@ -171,9 +172,22 @@ fn points_of_belts_are_the_answers_of_the_verbs() {
         let found = map(&(belt(law, 1.0) + &axis("dither.amplitude")), "belt", &quantities);
         for (point, amplitude) in AMPLITUDES.into_iter().enumerate() {
             let one = verbs(&study(&belt(law, amplitude)));
-            let response = one.response().expect("a response").json();
-            for fact in of_response {
+            let response = one.response(&ResponseRequest::default()).expect("a response").json();
+            for fact in ["effect", "residual_vibration", "amplitude", "undithered_amplitude"] {
                 assert_same(&found, fact, point, &response[fact]);
+            }
+            let (contact, dither) = (&response["contacts"][0], &response["dithers"][0]);
+            for (variable, fact) in [
+                ("stick_fraction", &contact["stick_fraction"]),
+                ("mean_friction", &contact["mean_friction"]),
+                ("minimum_normal_load", &contact["least_normal"]),
+                ("dither_power", &dither["power"]),
+                ("dither_stroke", &dither["stroke"]),
+            ] {
+                // Bristles never stick, of which a map has a status.
+                if found[format!("{variable}_status").as_str()][point] != "never_sticks" {
+                    assert_same(&found, variable, point, fact);
+                }
             }
             let stability = one.stability().expect("averages").json();
             let limit = &stability["limit"];

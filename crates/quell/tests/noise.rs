@@ -3,6 +3,7 @@
 use quell::Study;
 use quell::kind::{moving_system, verbs};
 use quell::run::noise_response::{self, NoiseResponse};
+use quell::run::response::ResponseRequest;
 use quell::run::simulate::{self, MotionRequest};
 use quell::study::{BeltStudy, SystemStudy};
 use quell_linear::averaging::{Averaging, FastMotion, critical_amplitudes};
@@ -204,7 +205,9 @@ fn averages_have_answers() {
 }
 
 fn response(text: &str, seeds: usize) -> NoiseResponse {
-    noise_response::of_belt(&study(text), Some(seeds)).expect("runs")
+    let system = moving_system(&Study::from(&study(text))).expect("a system");
+    let request = ResponseRequest { seeds: Some(seeds), ..ResponseRequest::default() };
+    noise_response::run(&system, request).expect("runs")
 }
 
 /// Strong noise quenches from every seed, weak noise from none; a run is that of the study with its seed.
@@ -258,7 +261,8 @@ fn noise_with_an_envelope() {
     let study = Study::from(&study(&text));
     assert_eq!(study.varies_by(), Some("dither.envelope"));
     verbs(&study).simulate(&MotionRequest::to(30.0)).expect("a run");
-    verbs(&study).response_within((20.0, 40.0)).expect("a window");
+    let window = ResponseRequest { window: Some((20.0, 40.0)), ..ResponseRequest::default() };
+    verbs(&study).response(&window).expect("a window");
     let half = study.at_time(10.0).expect("a moment");
     assert_eq!(half.belt().expect("a belt").belt().dithers()[0].amplitude, 1.5);
     assert_eq!(half.noise().as_deref(), Some("dither.waveform"));

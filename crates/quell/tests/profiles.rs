@@ -3,6 +3,7 @@
 //! Numbers: `reference/profiles.json` (source and tolerance in `reference/README.md`).
 
 use quell::kind::verbs;
+use quell::run::response::ResponseRequest;
 use quell::run::simulate::MotionRequest;
 use quell::study::Study;
 use serde_json::Value as Json;
@@ -213,7 +214,11 @@ fn questions_about_a_steady_study_are_refused_by_name() {
          law = \"coulomb\"\ncoefficient = 0.3\n[[sweep]]\nparameter = \"belt.normal_load\"\nfrom = 1\nto = 2\npoints = 3\n",
     );
     let verbs = verbs(&study);
-    for reply in [verbs.stability(), verbs.response(), verbs.friction(None, false)] {
+    for reply in [
+        verbs.stability(),
+        verbs.response(&ResponseRequest::default()),
+        verbs.friction(None, false),
+    ] {
         let why = format!("{:?}", reply.map(|_| ()).expect_err("a refusal"));
         assert!(why.contains("belt.drive") && why.contains("--at-time"), "{why}");
     }
@@ -229,7 +234,7 @@ fn a_window_warns_as_the_run_does() {
          law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n",
     );
     let run = simulated(&study, 50.0);
-    let window = verbs(&study).response_within((40.0, 50.0)).expect("a window").json();
+    let window = verbs(&study).response(&within((40.0, 50.0))).expect("a window").json();
     for answer in [run, window] {
         let warnings = answer["warnings"].to_string();
         assert!(warnings.contains("0.3464"), "{warnings}");
@@ -244,7 +249,7 @@ fn a_window_begins_as_the_run_does() {
          state = \"sliding\"\n[friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n",
     );
     assert_eq!(simulated(&study, 20.0)["event_count"], 0);
-    let window = verbs(&study).response_within((0.0, 20.0)).expect("a window").json();
+    let window = verbs(&study).response(&within((0.0, 20.0))).expect("a window").json();
     assert!(number(&window["amplitude"]) < 1e-12, "{window}");
     assert!((number(&window["mean"]) - 0.3).abs() < 1e-12, "{window}");
 }
@@ -268,4 +273,9 @@ fn intervals_of_short_runs_are_judged_by_an_oscillation_that_they_contain() {
     let vibration = alone["vibration"].as_array().expect("intervals");
     assert!(vibration.len() == 1 && number(&vibration[0]["to"]) < 120.0, "{alone}");
     assert_eq!(alone, beside);
+}
+
+/// The request of a window.
+fn within(window: (f64, f64)) -> ResponseRequest {
+    ResponseRequest { window: Some(window), ..ResponseRequest::default() }
 }

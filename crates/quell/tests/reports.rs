@@ -6,6 +6,7 @@ use quell::Study;
 use quell::kind::verbs;
 use quell::report::{ReportRequest, StudyReport, run};
 use quell::run::orbit::Wanted;
+use quell::run::response::ResponseRequest;
 use quell::study::Kind;
 use serde_json::Value as Json;
 
@@ -79,7 +80,7 @@ fn numbers_and_sentences_are_those_of_the_verbs() {
         let verbs = verbs(&study);
         let asked = [
             ("stability", verbs.stability()),
-            ("response", verbs.response()),
+            ("response", verbs.response(&ResponseRequest::default())),
             ("orbit", verbs.orbit(&Wanted::default())),
             ("modes", verbs.modes()),
         ];

@@ -4,6 +4,7 @@
 
 use quell::kind::{moving_system, system_of, verbs};
 use quell::run::orbit::Wanted;
+use quell::run::response::ResponseRequest;
 use quell::run::simulate::{MotionRequest, Simulation};
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::waveforms::WaveformComparison;
@@ -145,7 +146,11 @@ fn a_burst_without_pause_has_the_answers_of_its_carrier() {
         assert_eq!(runs[0], runs[1], "{carrier}");
         let answers = |of: &Study| {
             let verbs = verbs(of);
-            let replies = [verbs.response(), verbs.stability(), verbs.orbit(&Wanted::default())];
+            let replies = [
+                verbs.response(&ResponseRequest::default()),
+                verbs.stability(),
+                verbs.orbit(&Wanted::default()),
+            ];
             replies.map(|reply| {
                 reply.map_or_else(|why| why.to_string(), |found| found.json().to_string())
             })

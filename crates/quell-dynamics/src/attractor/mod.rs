@@ -23,21 +23,29 @@
 //! | `measure` | classification of the attractor of a settled run |
 //! | `basin` | which starts lead to the same attractor |
 //! | `reached` | whether a run from a start ends quiet |
+//! | `end_of_run` | the motion on which a run of any system ends |
+//! | `system_attractor` | that motion |
 
 mod average;
 mod base_response;
 mod basin;
 mod block_observer;
+mod end_of_run;
 mod measure;
 mod reached;
 mod rotation;
 mod section;
 mod settings;
 mod settle;
+mod system_attractor;
 
 pub use crate::orbit::Unsettled;
 pub use base_response::BaseResponse;
 pub use basin::{Basin, BasinLabel, BasinsOfAttraction, gather};
+pub use end_of_run::{
+    EndOfRun, NoEnd, end_of_run, ends_of_runs, judged_mass, measured_of_one_mass, starts_of_mass,
+};
+pub(crate) use measure::DisplacementExtremes;
 pub use measure::{Attractor, AttractorKind, measure, orbit_reached};
 pub(crate) use reached::reached_at;
 pub use reached::{Reached, reached};
@@ -45,3 +53,4 @@ pub use rotation::{Ratio, Rotation};
 pub use section::StroboscopicSection;
 pub use settings::AttractorSettings;
 pub use settle::{Patience, SettleOutcome, Settled, settle, settle_many};
+pub use system_attractor::{MotionKind, SystemAttractor};

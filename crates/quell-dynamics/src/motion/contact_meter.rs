@@ -6,6 +6,7 @@ use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::lane::{Lane, MOST_LANES};
 
+use super::extremes::least;
 use super::observer::{MotionObserver, MotionSegment, SegmentSeries};
 use super::phase::ContactPhase;
 use crate::simulation::{ORDER, RECIPROCALS, Series};
@@ -149,7 +150,12 @@ impl ContactSums {
         } else {
             let loads = values_at::<V>(load, at);
             self.load = f64::mul_add(duration, mean_of(&loads), self.load);
-            self.least_load = loads.into_iter().fold(self.least_load, lesser);
+            // A bound on the distance from the first value: most segments stay above the least so far.
+            let terms = load[1..].iter().rev();
+            let reach = terms.fold(0.0, |sum: f64, c| f64::mul_add(sum, duration, c.abs()));
+            if f64::mul_add(-reach, duration, load[0]) < self.least_load {
+                self.least_load = lesser(self.least_load, least(load, duration).0);
+            }
             loads
         };
         // The spring of an elastic slider that adheres takes and returns work.

@@ -1,6 +1,7 @@
 //! The states at both ends of a system's run.
 
 use super::phase::ContactPhase;
+use crate::simulation::Start;
 
 /// State at the start of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +10,13 @@ pub struct MotionStart {
     pub time: f64,
     /// Displacements and velocities, or the states of first-order equations.
     pub state: Vec<f64>,
+}
+
+impl From<Start> for MotionStart {
+    /// The start of one mass on a rigid contact, in the numbers of its equations.
+    fn from(start: Start) -> Self {
+        Self { time: start.time, state: vec![start.displacement, start.velocity] }
+    }
 }
 
 /// State of a contact at the end of a run.

@@ -8,13 +8,9 @@ use std::fmt;
 
 use quell_model::Belt;
 
-use super::BAND_END;
 use super::measure::{Compared, Undefined};
 use super::record_lines::RecordLines;
-use super::system_ending::SystemEnding;
 use crate::attractor::{Reached, StroboscopicSection, reached};
-use crate::belt_motion::{ContactStart, motion_start};
-use crate::motion::orbit::base_motion;
 use crate::orbit::NoOrbit;
 use crate::simulation::Start;
 
@@ -24,13 +20,6 @@ pub const QUENCHED: f64 = 0.01;
 /// Residual vibration E below which the dissertation calls a vibration suppressed (5 % in figure 2.8), and a designed dither that repeats in
 /// the band of the vibration is called quiet.
 pub const SUPPRESSED: f64 = 0.05;
-
-/// Steps in which the base response of a belt with a state is followed from steady sliding.
-const BASE_STEPS: u32 = 8;
-
-/// Mismatch of two states, relative to their size, of one periodic response: far above the error of a closed one, and far below the
-/// distance of two responses.
-const SAME_STATE: f64 = 1e-6;
 
 /// The effect of a dither on the vibration below 1.9 ω₀, from one start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,47 +122,6 @@ impl RunEnding {
         }
     }
 
-    /// For the run of a belt whose friction has a state of its own, by the judge of systems. Without dither the base response is steady
-    /// sliding.
-    pub(super) fn with_state(belt: &Belt, start: (Start, ContactStart)) -> Self {
-        let system = belt.system();
-        let from = motion_start(&system, start);
-        let reached = match SystemEnding::of(&system, &from) {
-            SystemEnding::Rest => Reached::Base,
-            SystemEnding::Orbit { state, period, .. } => {
-                let base = || base_motion(&system, BASE_STEPS).ok();
-                let is_base = system.is_dithered()
-                    && base().is_some_and(|base| {
-                        let size =
-                            base.state.iter().chain(&state).fold(0.0, |m: f64, x| m.max(x.abs()));
-                        let off = base.state.iter().zip(&state).map(|(a, b)| (a - b).abs());
-                        off.fold(0.0, f64::max) <= SAME_STATE * size
-                    });
-                if is_base {
-                    Reached::Base
-                } else if system.is_dithered() && std::f64::consts::TAU / period > BAND_END {
-                    Reached::Forced
-                } else {
-                    Reached::Elsewhere
-                }
-            }
-            SystemEnding::UnstableSliding | SystemEnding::Drift | SystemEnding::Record => {
-                Reached::Unknown
-            }
-        };
-        Self::Reached(reached)
-    }
-
-    /// The word in outputs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Reached(Reached::Base) => "base response",
-            Self::Reached(Reached::Forced) => "another response without slow motion of its own",
-            Self::Reached(Reached::Elsewhere) => "another response",
-            Self::Reached(Reached::Unsettled | Reached::Unknown) | Self::Unknown(_) => "unknown",
-        }
-    }
-
     /// Whether no slow motion remains except that forced by the dither itself.
     fn is_quiet(self) -> bool {
         matches!(self, Self::Reached(reached) if reached.is_quiet() == Some(true))
@@ -244,10 +192,4 @@ impl Vibrations {
             false => Effect::Increases,
         }
     }
-}
-
-/// Whether the record still shows a vibration that decays in the end.
-pub(super) fn still_decays(effect: Effect, compared: &Compared) -> bool {
-    let ratio = compared.dithered.lines.whole / compared.undithered.lines.whole;
-    effect == Effect::Quenches && ratio >= QUENCHED
 }

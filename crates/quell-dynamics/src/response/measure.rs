@@ -11,7 +11,7 @@ use super::cost::{self, Meter};
 use super::record_lines::RecordLines;
 use super::solver::Solver;
 use super::spectral_meter::{Sampling, SpectralMeter};
-use crate::belt_motion::{BeltStopped, ContactStart, run_belt};
+use crate::attractor::DisplacementExtremes;
 use crate::orbit::cycle::{keeps_vibrating, sliding_verdict};
 use crate::orbit::{NoOrbit, OrbitVerdict};
 use crate::simulation::{
@@ -97,8 +97,8 @@ pub struct MeasuredRecord {
     pub mean_friction: f64,
     /// Mean power ⟨D_T g_T x′⟩ over kω₀; `None` if not requested, or if all dither is normal.
     pub dither_power: Option<f64>,
-    /// Peak-to-peak displacement in the lines of the tangential dithers; `None` under the same conditions as the power, and where
-    /// these lines are unknown ([`super::stroke_is_measured`]).
+    /// Peak-to-peak displacement, by which the point moves on which a tangential dither acts; `None` under the same conditions as the
+    /// power.
     pub dither_stroke: Option<f64>,
     /// Smallest normal load.
     pub minimum_normal_load: f64,
@@ -277,27 +277,9 @@ struct RecordObserver<O> {
     sampling: Sampling,
     meter: Meter,
     spectral: SpectralMeter,
+    extremes: Option<DisplacementExtremes>,
     slip: LargestSlip,
     observer: O,
-}
-
-/// [`record_many`] of one belt whose friction has a state of its own, which begins as given.
-///
-/// # Errors
-/// [`BeltStopped`].
-pub(super) fn record_with_state<O: Observer>(
-    case: &ResponseCase,
-    contact: ContactStart,
-    solver: &Solver,
-    observables: Observables,
-    observer: impl Fn(&ResponseCase, &Sampling) -> O,
-) -> Result<(MeasuredRecord, O), BeltStopped> {
-    let (belt, settle) = (&case.belt, case.start.time + solver.settle);
-    let settled = run_belt(belt, (case.start, contact), settle, solver.tolerance, &mut ())?;
-    let mut record = RecordObserver::new(case, settled.state, solver, observables, observer);
-    let until = record.sampling.end();
-    let end = run_belt(belt, settled.restart(), until, solver.tolerance, &mut record)?;
-    Ok(record.measured(case, observables, &end.state))
 }
 
 impl<O> RecordObserver<O> {
@@ -313,7 +295,8 @@ impl<O> RecordObserver<O> {
             settled,
             sampling,
             meter: Meter::new(&case.belt, &settled, observables.dither_cost),
-            spectral: SpectralMeter::new(&case.belt, sampling, observables.dither_cost),
+            spectral: SpectralMeter::new(&case.belt, sampling),
+            extremes: observables.dither_cost.then_some(DisplacementExtremes::NONE),
             slip: LargestSlip::of(&case.belt),
             observer: observer(case, &sampling),
         }
@@ -337,7 +320,10 @@ impl<O> RecordObserver<O> {
             stick_fraction: self.meter.stick_fraction(),
             mean_friction: self.meter.mean_friction(),
             dither_power: has_cost.then(|| self.meter.dither_power()),
-            dither_stroke: if has_cost { self.spectral.stroke() } else { None },
+            dither_stroke: self
+                .extremes
+                .filter(|_| has_cost)
+                .map(|extremes| extremes.highest - extremes.lowest),
             minimum_normal_load: cost::minimum_normal_load(belt, self.sampling.from, length),
             largest_slip: self.slip.speed,
             events: end.events,
@@ -369,6 +355,9 @@ impl<O: Observer> Observer for RecordObserver<O> {
         let Self { meter, spectral, .. } = self;
         with_fused_multiply_add(SegmentMeasurement { meter, spectral, segment });
         self.slip.segment(segment);
+        if let Some(extremes) = &mut self.extremes {
+            extremes.segment(segment);
+        }
         if self.observer.watches() {
             self.observer.segment(segment);
         }

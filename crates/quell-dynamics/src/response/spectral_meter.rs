@@ -1,15 +1,12 @@
-//! The spectral measurements of a record while integrating: its largest low line, and its lines at the
-//! frequencies of the dither. Samples of x at equal steps are summed as they arrive; none is stored.
+//! The largest low line of a record, measured while integrating. Samples of x at equal steps are summed as they arrive; none is stored.
 
 use std::f64::consts::TAU;
 
 use quell_model::Belt;
-use quell_numerics::elementary::sin_cos_of_phase;
 use quell_numerics::spectrum::low_band::{LargestLines, LowBand};
 
-use super::dither_lines::{self, LineGroup};
 use super::solver::Solver;
-use crate::band::BAND_END;
+use crate::band::{BAND_END, LEAST_BAND_END};
 use crate::simulation::Segment;
 
 /// Samples per period of the fastest dither, at least: its seventh harmonic stays below
@@ -80,38 +77,16 @@ pub(super) struct SpectralMeter {
     band: LowBand,
     /// Upper end of the band that is searched for lines.
     band_end: f64,
-    /// The tones of the dithers, in the order of their groups; none where they are not measured.
-    tones: Vec<Tone>,
-    groups: Result<Vec<LineGroup>, &'static str>,
-}
-
-/// Sums of a record under the Hann window at one frequency.
-#[derive(Clone, Copy, Debug, Default)]
-struct Tone {
-    frequency: f64,
-    weight: f64,
-    /// Σ w x, Σ w x cos, Σ w x sin.
-    sample: [f64; 3],
-    /// Σ w cos, Σ w sin.
-    window: [f64; 2],
 }
 
 impl SpectralMeter {
-    /// For a record of `belt`; with the lines of the dither only if `with_tones`.
-    pub(super) fn new(belt: &Belt, sampling: Sampling, with_tones: bool) -> Self {
-        let record_periods =
-            u32::try_from(sampling.count / sampling.per_slow_period).unwrap_or(u32::MAX);
-        let groups =
-            if with_tones { dither_lines::groups(belt, record_periods) } else { Ok(Vec::new()) };
-        let frequencies = groups.iter().flatten().flat_map(|group| group.frequencies.clone());
-        let tone = |frequency| Tone { frequency, ..Tone::default() };
+    /// For a record of `belt`.
+    pub(super) fn new(belt: &Belt, sampling: Sampling) -> Self {
         let decimation = sampling.per_slow_period / CELLS_PER_SLOW_PERIOD;
         Self {
             sampling,
             band: LowBand::new(sampling.count, sampling.step, decimation),
             band_end: band_end(belt, sampling),
-            tones: frequencies.map(tone).collect(),
-            groups,
         }
     }
 
@@ -120,23 +95,10 @@ impl SpectralMeter {
         self.band.largest_lines(self.band_end)
     }
 
-    /// Peak-to-peak displacement in the lines of the tangential dithers, of those with different periods the sum; `None` where these
-    /// lines are unknown.
-    pub(super) fn stroke(&self) -> Option<f64> {
-        let mut tones = self.tones.iter();
-        let groups = self.groups.as_ref().ok()?;
-        let strokes = groups.iter().map(|group| {
-            let lines: Vec<_> =
-                tones.by_ref().take(group.frequencies.len()).map(Tone::line).collect();
-            dither_lines::peak_to_peak(group.repetition, &lines)
-        });
-        Some(strokes.sum())
-    }
-
     /// Adds the missing samples at the end: the last sample may round to just after it.
     pub(super) fn finish(&mut self, displacement: f64) {
         while self.band.missing() > 0 {
-            self.add_sample(displacement);
+            self.band.push(displacement);
         }
     }
 
@@ -157,27 +119,14 @@ impl SpectralMeter {
                 }
             }
             for &displacement in &segment.displacements_at(&since)[..inside] {
-                self.add_sample(displacement);
+                self.band.push(displacement);
             }
             if inside < ABREAST {
                 return;
             }
         }
     }
-
-    #[inline(always)]
-    fn add_sample(&mut self, displacement: f64) {
-        let number = (self.sampling.count - self.band.missing()) as f64;
-        self.band.push(displacement);
-        for tone in &mut self.tones {
-            tone.add_sample(displacement, number, &self.sampling);
-        }
-    }
 }
-
-/// Least upper end of the band, in ω₀: self-excited vibration is at about the natural frequency, 1. If the band ended lower, a
-/// vibration outside it would be reported as quenched.
-const LEAST_BAND_END: f64 = 1.5;
 
 /// The upper end of the band of slow vibration, reduced where the window would spread the line of a dither just above it into the
 /// band: by two lines of the unpadded half of a record. A record too short to separate both keeps the whole band, including
@@ -190,28 +139,4 @@ fn band_end(belt: &Belt, sampling: Sampling) -> f64 {
         .filter(|dither| dither.amplitude > 0.0 && dither.repetition_ratio() > BAND_END);
     let ends = above.map(|dither| dither.repetition_ratio() - reach);
     ends.filter(|end| *end >= LEAST_BAND_END).fold(BAND_END, f64::min)
-}
-
-impl Tone {
-    #[inline(always)]
-    fn add_sample(&mut self, displacement: f64, number: f64, sampling: &Sampling) {
-        let (sine, _) = sin_cos_of_phase(0.5 * TAU / sampling.count as f64, number, 0.0, 0.0);
-        let weight = sine * sine;
-        let (sine, cosine) = sin_cos_of_phase(self.frequency * sampling.step, number, 0.0, 0.0);
-        let value = weight * displacement;
-        self.weight += weight;
-        self.sample[0] += value;
-        self.sample[1] = value.mul_add(cosine, self.sample[1]);
-        self.sample[2] = value.mul_add(sine, self.sample[2]);
-        self.window[0] = weight.mul_add(cosine, self.window[0]);
-        self.window[1] = weight.mul_add(sine, self.window[1]);
-    }
-
-    /// Its frequency and its two spectral amplitudes, of cosine and sine, the weighted mean removed.
-    fn line(&self) -> [f64; 3] {
-        let mean = self.sample[0] / self.weight;
-        let cosine = self.sample[1] - mean * self.window[0];
-        let sine = self.sample[2] - mean * self.window[1];
-        [self.frequency, 2.0 * cosine / self.weight, 2.0 * sine / self.weight]
-    }
 }

@@ -1,93 +1,159 @@
-//! Where the runs of a response end, judged by periodic motions as `orbit` and `thresholds` judge them.
+//! Where the runs of a response end, by the judge of `attractor`, `basins` and `bifurcation`.
+
+use std::f64::consts::TAU;
 
 use quell_linear::growth::Verdict;
 use quell_linear::linearised::Linearised;
+use quell_linear::pure_slip::period;
 use quell_linear::spectrum::spectrum;
 use quell_model::System;
 
-use crate::motion::MotionStart;
-use crate::motion::orbit::{NoCycle, SettledMotion, free_cycle, is_on_sliding, settled};
-use crate::orbit::OrbitVerdict;
+use super::steady_response::ResponsePlan;
+use crate::attractor::{MotionKind, NoEnd, SystemAttractor, end_of_run};
+use crate::motion::orbit::is_on_sliding;
+use crate::motion::{Motion, MotionEnd, MotionStart, MotionStopped};
 
 /// Where a run ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SystemEnding {
-    /// On a stable periodic motion.
-    Orbit {
-        /// A state at which the phase of the dither is that at t = 0.
-        state: Vec<f64>,
-        /// Time at which the run passes that state, whole periods of the dither; 0 without dither, where the phase of the run on its
-        /// cycle is not known.
-        time: f64,
-        /// Its period.
-        period: f64,
+    /// On this motion.
+    Motion {
+        /// The motion.
+        found: Box<SystemAttractor>,
+        /// Its period, if it repeats itself.
+        period: Option<f64>,
     },
-    /// At rest or in steady sliding, without dither.
-    Rest,
     /// In steady sliding without dither that is unstable: the start does not disturb it.
     UnstableSliding,
-    /// On no periodic motion: over its record it moves on by more than it vibrates.
+    /// On no motion that was found: over its record it moves on by more than it vibrates.
     Drift,
-    /// On no periodic motion that was found: its record decides.
-    Record,
+    /// On no motion that was found, for this reason; its record decides.
+    Record(Option<NoEnd>),
 }
 
 impl SystemEnding {
-    /// The ending of a run from a start. An orbit that is not stable is not where a run ends.
-    pub(super) fn of(system: &System, start: &MotionStart) -> Self {
-        if !system.is_dithered() {
-            return match free_cycle(&system.undithered(), &start.state) {
-                Ok(cycle) if cycle.verdict() == OrbitVerdict::Stable => {
-                    Self::Orbit { state: cycle.state, time: 0.0, period: cycle.period }
-                }
-                Err(NoCycle::Rest { state, .. }) if is_unstable_sliding(system, &state) => {
-                    Self::UnstableSliding
-                }
-                Err(NoCycle::Rest { .. }) => Self::Rest,
-                Ok(_) | Err(_) => Self::Record,
-            };
+    /// The ending of a run from a start, which has settled until `end`.
+    pub(super) fn of(
+        system: &System,
+        plan: &ResponsePlan,
+        start: &MotionStart,
+        end: &MotionEnd,
+    ) -> Self {
+        // Noise has no period, and the phase of the dither of a motion that is found is that at t = 0.
+        if system.has_noise() || system.is_dithered() && start.time != 0.0 {
+            return Self::Record(None);
         }
-        // Noise has no period, and the phase of the dither of an orbit's state is that at t = 0.
-        if start.time != 0.0 || system.has_noise() {
-            return Self::Record;
+        // The judge displaces a run from unstable sliding, which rounding alone need not do.
+        if !system.is_dithered() && is_unstable_sliding(system, &end.state) {
+            return Self::UnstableSliding;
         }
-        match settled(system, &start.state) {
-            Ok(SettledMotion { orbit, multiple, periods }) => Self::Orbit {
-                time: f64::from(periods) * orbit.period / f64::from(multiple),
-                state: orbit.state,
-                period: orbit.period,
+        let found = match end_of_run(system, &plan.row, &start.state) {
+            Ok(end) => end.attractor,
+            Err(why) => return Self::Record(Some(why)),
+        };
+        match found.kind {
+            MotionKind::Rest
+                if !system.is_dithered() && is_unstable_sliding(system, &found.state) =>
+            {
+                Self::UnstableSliding
+            }
+            // A cycle that is not stable is not where a run ends.
+            MotionKind::Cycle { radius, .. } if radius >= 1.0 => Self::Record(None),
+            MotionKind::Cycle { period, .. } => {
+                Self::Motion { found: Box::new(found), period: Some(period) }
+            }
+            MotionKind::Periodic { periods, .. } => Self::Motion {
+                found: Box::new(found),
+                period: period(system).map(|period| f64::from(periods) * period),
             },
-            Err(_) => Self::Record,
+            MotionKind::QuasiPeriodic { .. }
+            | MotionKind::NotPeriodic { .. }
+            | MotionKind::Rest => Self::Motion { found: Box::new(found), period: None },
         }
     }
 
     /// The word in outputs.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Orbit { .. } => "orbit",
-            Self::Rest => "rest",
-            Self::UnstableSliding => "unstable sliding",
+            Self::Motion { found, .. } => found.kind_name(),
+            Self::UnstableSliding => "unstable-sliding",
             Self::Drift => "drift",
-            Self::Record => "record",
+            Self::Record(_) => "unknown",
         }
     }
 
-    /// Period of the orbit.
+    /// The motion, if it was found.
+    pub fn motion(&self) -> Option<&SystemAttractor> {
+        match self {
+            Self::Motion { found, .. } => Some(found),
+            Self::UnstableSliding | Self::Drift | Self::Record(_) => None,
+        }
+    }
+
+    /// Why the motion is not known.
+    pub fn why(&self) -> Option<String> {
+        match self {
+            Self::Record(Some(why)) => Some(why.to_string()),
+            Self::Record(None) => Some("no periodic motion was looked for".to_owned()),
+            Self::Motion { .. } | Self::UnstableSliding | Self::Drift => None,
+        }
+    }
+
+    /// Period of a motion that repeats itself.
     pub fn period(&self) -> Option<f64> {
         match self {
-            Self::Orbit { period, .. } => Some(*period),
-            Self::Rest | Self::UnstableSliding | Self::Drift | Self::Record => None,
+            Self::Motion { period, .. } => *period,
+            Self::UnstableSliding | Self::Drift | Self::Record(_) => None,
         }
+    }
+
+    /// Whether it is at rest or in steady sliding, where a run stays.
+    pub(super) fn is_rest(&self) -> bool {
+        self.motion().is_some_and(|found| found.kind == MotionKind::Rest)
     }
 
     /// The ending of a run whose record has these samples: without a known motion the record may drift.
     pub(super) fn with_record(self, samples: &[f64]) -> Self {
-        if self == Self::Record && drifts(samples) { Self::Drift } else { self }
+        match self {
+            Self::Record(_) if drifts(samples) => Self::Drift,
+            ending => ending,
+        }
     }
 
     /// Whether it has no vibration slower than an angular frequency: every line of an orbit is a multiple of its own frequency.
     pub(super) fn is_faster_than(&self, frequency: f64) -> bool {
-        self.period().is_some_and(|period| std::f64::consts::TAU / period > frequency)
+        self.period().is_some_and(|period| TAU / period > frequency)
+    }
+
+    /// Where the record of a run begins that has settled until `end`: on the motion that repeats itself, at the phase of the run and of
+    /// its dither; of the places of a longer motion, whole periods of the dither apart, at that nearest to the run.
+    ///
+    /// # Errors
+    /// [`MotionStopped`].
+    pub(super) fn record_from(
+        &self,
+        motion: &Motion<'_>,
+        tolerance: f64,
+        end: &MotionEnd,
+    ) -> Result<MotionStart, MotionStopped> {
+        let Self::Motion { found, period: Some(period) } = self else { return Ok(end.restart()) };
+        let places = match found.kind {
+            MotionKind::Periodic { periods, .. } => periods,
+            _ => 1,
+        };
+        let step = period / f64::from(places);
+        let mut from = MotionStart { time: 0.0, state: found.state.clone() };
+        let mut nearest: Option<(f64, MotionStart)> = None;
+        for place in 0..places {
+            let until = f64::from(place).mul_add(step, end.time.rem_euclid(step));
+            from = motion.run(&from, until, tolerance, &mut ())?.restart();
+            let pairs = from.state.iter().zip(&end.state);
+            let distance = pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+            if nearest.as_ref().is_none_or(|(least, _)| distance < *least) {
+                nearest = Some((distance, from.clone()));
+            }
+        }
+        Ok(nearest.map_or_else(|| end.restart(), |(_, start)| start))
     }
 }
 

@@ -27,30 +27,6 @@ pub struct Segment<'a> {
 }
 
 impl<'a> Segment<'a> {
-    /// A piece of the motion of a belt as a system, whose unit of length is 1.
-    pub(crate) fn of_motion(
-        (clock, duration): (Clock, f64),
-        slip_sign: i8,
-        surface: &'a [f64; ORDER + 1],
-        displacement: &'a [f64; ORDER + 1],
-        slip: &'a [f64; ORDER + 1],
-    ) -> Self {
-        let [belt_velocity, belt_acceleration @ ..] = surface;
-        let belt_velocity = *belt_velocity;
-        Self {
-            clock,
-            duration,
-            slip_sign,
-            unit: 1.0,
-            belt_velocity,
-            belt_acceleration,
-            displacement,
-            slip,
-        }
-    }
-}
-
-impl Segment<'_> {
     /// Its start, τ.
     #[inline(always)]
     pub fn clock(&self) -> Clock {

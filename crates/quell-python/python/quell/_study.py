@@ -301,13 +301,14 @@ class Study(CheckedStudy):
     ) -> results.Response | results.Window | results.NoiseResponse:
         """The steady response, the effect of the dither (``effect``; residual vibration E, equation (2.27)), and its cost.
 
-        Of a system, the response of ``observe`` in the band below the lowest dither frequency.
+        It is the response of ``observe`` in the band of slow vibration: of one mass up to 1.9 ω₀, of several below the lowest dither
+        frequency.
 
         Parameters
         ----------
         settle, record :
-            System: time before the record and length of the record; in a study with units also a text such as ``"50ms"``
-            [default: 200 and 60 periods of the slowest oscillation]. A belt has them in its ``solver``.
+            Time before the record and length of the record; in a study with units also a text such as ``"50ms"``
+            [default: those of the ``solver``; of a system 200 and 60 periods of the slowest oscillation].
         window :
             Beginning and end of a part of the run from its start, which is measured instead of a steady response: also where drive,
             load or dither varies in time.
@@ -317,25 +318,21 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         allowed = 'a finite number, or a time with its unit such as "0.5s"'
-        if seeds is not None or (window is None and self._native.is_noise()):
-            if window is not None:
-                arguments.wrong.append(complaint("window", window, "left out: every run is measured after settle", "conflict"))
-            count = None if seeds is None else arguments.whole("seeds", seeds, 1, 10_000)
-            before = None if settle is None else arguments.quantity("settle", settle, allowed)
-            length = None if record is None else arguments.quantity("record", record, allowed)
-            arguments.done()
-            return results.NoiseResponse._of(self, self._native.response_of_seeds(count, before, length))
         if window is not None:
-            for name, given in (("settle", settle), ("record", record)):
+            for name, given in (("settle", settle), ("record", record), ("seeds", seeds)):
                 if given is not None:
                     arguments.wrong.append(complaint(name, given, "left out: window gives both times", "conflict"))
-            ends = arguments.quantities("window", window, "two finite times, the beginning and the end")
-            arguments.done()
-            return results.Window._of(self, self._native.window(*ends))
+        count = None if seeds is None else arguments.whole("seeds", seeds, 1, 10_000)
         before = None if settle is None else arguments.quantity("settle", settle, allowed)
         length = None if record is None else arguments.quantity("record", record, allowed)
+        ends = None if window is None else arguments.quantities("window", window, "two finite times, the beginning and the end")
         arguments.done()
-        return results.Response._of(self, self._native.response(before, length))
+        answer = self._native.response(before, length, ends, count)
+        if ends is not None:
+            return results.Window._of(self, answer)
+        if seeds is not None or self._native.is_noise():
+            return results.NoiseResponse._of(self, answer)
+        return results.Response._of(self, answer)
 
     @keywords
     def orbit(

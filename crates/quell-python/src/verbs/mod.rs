@@ -26,7 +26,6 @@ pub(crate) mod sketch;
 pub(crate) mod stability;
 pub(crate) mod thresholds;
 pub(crate) mod waveforms;
-pub(crate) mod window;
 
 use quell::{Complaint, Failure};
 use serde_json::Value as Json;

@@ -1,6 +1,8 @@
 //! Claims of chapter 2: friction laws, responses under sinusoidal tangential dither, averaging.
 
-use quell_dynamics::response::{SUPPRESSED, Solver, respond};
+use quell_dynamics::response::{
+    PEAK_FLOOR, ResponsePlan, SUPPRESSED, Solver, SteadyResponse, respond,
+};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_linear::averaging::{
     Averaging, Becomes, CriticalAmplitude, EverywhereStable, FastWave, closed_band,
@@ -160,7 +162,7 @@ pub(super) fn friction_laws(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let cases = cases(&source("2.3")?)?;
     let found = residual_vibrations(&cases);
-    let dithered = fundamental(&cases[0].response.record.spectrum);
+    let dithered = fundamental(&cases[0].response.dithered.spectrum);
     sheet
         .number(
             "2.3-dithered-fundamental",
@@ -180,11 +182,8 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         "0.746",
         std::slice::from_ref(cases[0].study.belt()),
     )?;
-    let stuck = |case: &ResponseColumn| {
-        let samples = &case.response.undithered_record.samples;
-        samples.iter().filter(|sample| sample.sticking).count() as f64 / samples.len() as f64
-    };
-    let (with, without) = (cases[0].response.stick_fraction, stuck(&cases[0]));
+    let SteadyResponse { dithered, undithered, .. } = &cases[0].response;
+    let [with, without] = [dithered, undithered].map(|record| record.contacts[0].stick_fraction);
     sheet.statement(
         [
             "2.3-stick-durations",
@@ -210,7 +209,7 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         &found[2..],
         found[2] < SUPPRESSED,
     );
-    let peaks = &cases[2].response.peaks;
+    let peaks = cases[2].response.dithered.spectrum.peaks(PEAK_FLOOR);
     let strongest = peaks.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
     sheet.number(
         "2.3-forced-frequency",
@@ -229,8 +228,9 @@ pub(super) fn forced_response(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let respond_at = |ratio: f64| -> Result<f64, Failure> {
         let dither = Some((Direction::Tangential, Waveform::Sine, amplitude, ratio));
         let belt = belt(LawKind::Stribeck, LIGHT, 0.05, dither)?;
-        let response = respond(&belt, Start::REST, &Solver::default())
-            .map_err(|error| failed("claims", &error))?;
+        let response =
+            respond(&belt.system(), &Start::REST.into(), &ResponsePlan::from(&Solver::default()))
+                .map_err(|error| failed("claims", &error))?;
         response.residual_vibration.map_err(|error| failed("claims", &error))
     };
     let found = ratios.map(respond_at).into_iter().collect::<Result<Vec<f64>, Failure>>()?;

@@ -271,7 +271,7 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             &found[2..],
             holds,
         );
-        let records = cases[..2].iter().map(|case| &case.response.record.spectrum);
+        let records = cases[..2].iter().map(|case| &case.response.dithered.spectrum);
         frequencies.extend(records.filter_map(fundamental));
         belts.extend(cases[..2].iter().map(|case| case.study.belt().clone()));
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use quell::parallel::Parallel;
 use quell_dynamics::attractor::AttractorSettings;
-use quell_dynamics::response::{Solver, respond};
+use quell_dynamics::response::{ResponsePlan, Solver, respond};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Averaging, Becomes, FastMotion, FastWave, closed_band, effective};
 use quell_model::waveform::Burst;
@@ -28,11 +28,13 @@ pub(super) fn equilibrium(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         .in_parallel(|&ratio| -> Result<f64, Failure> {
             let dither = (Direction::Tangential, Waveform::Sine, alpha * ratio, ratio);
             let belt = belt(LawKind::Stribeck, LIGHT, speed, Some(dither))?;
-            let response = respond(&belt, Start::REST, &Solver::default())
-                .map_err(|error| failed("claims", &error))?;
-            let samples = &response.record.samples;
-            let sum: f64 = samples.iter().map(|sample| sample.displacement).sum();
-            Ok(sum / samples.len() as f64 / expected - 1.0)
+            let response = respond(
+                &belt.system(),
+                &Start::REST.into(),
+                &ResponsePlan::from(&Solver::default()),
+            )
+            .map_err(|error| failed("claims", &error))?;
+            Ok(response.dithered.observed.mean() / expected - 1.0)
         })
         .collect::<Result<Vec<f64>, Failure>>()?;
     let falls = means.windows(2).all(|pair| pair[1].abs() < pair[0].abs());
@@ -233,8 +235,12 @@ pub(super) fn bursts(sheet: &mut ClaimSheet) -> Result<(), Failure> {
                 .into_waveform();
             let dither = Some((Direction::Normal, burst, 0.99, *ratio));
             let belt: Belt = belt(LawKind::Decreasing, LIGHT, 0.05, dither)?;
-            let response = respond(&belt, Start::REST, &Solver::default())
-                .map_err(|error| failed("claims", &error))?;
+            let response = respond(
+                &belt.system(),
+                &Start::REST.into(),
+                &ResponsePlan::from(&Solver::default()),
+            )
+            .map_err(|error| failed("claims", &error))?;
             response.residual_vibration.map_err(|error| failed("claims", &error))
         })
         .collect::<Result<Vec<f64>, Failure>>()?;

@@ -66,7 +66,8 @@ pub use steady::{not_periodic, varies_in_time};
 pub use study_kind::{StudyKind, not_available};
 pub use sweep::{Axis, Sweep};
 pub use system::{
-    DescribedSystem, FrequencyResponse, ScaledTime, SystemSetup, SystemStart, SystemStudy,
+    DescribedSystem, FrequencyResponse, RecordSettings, ScaledTime, SystemSetup, SystemStart,
+    SystemStudy,
 };
 pub use uncertainty::Uncertainty;
 

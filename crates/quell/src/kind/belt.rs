@@ -9,13 +9,11 @@ use crate::contact_state::refused_of_belt;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::recorded_motion::ObservedMotion;
+use crate::run::response::ResponseRequest;
 use crate::run::simulate::MotionRequest;
-use crate::run::system::response::ResponseRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
-use crate::run::{
-    atlas, basins, belt_system, bifurcation, noise_response, orbit, probability, response,
-};
+use crate::run::{atlas, basins, belt_system, bifurcation, orbit, probability};
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
 
@@ -83,17 +81,8 @@ impl Verbs for BeltStudy {
         Verbs::simulate(&belt_system::described(self)?, request)
     }
 
-    fn response(&self) -> Reply {
-        answer(self, response::run(self))
-    }
-
-    fn response_of_seeds(&self, seeds: Option<usize>, _: ResponseRequest) -> Reply {
-        answer(self, noise_response::of_belt(self, seeds))
-    }
-
-    fn response_within(&self, window: (f64, f64)) -> Reply {
-        let one = self.scales().map_or(1.0, |scales| scales.to_units(Quantity::Time, 1.0));
-        belt_system::described(self)?.response_within((one * window.0, one * window.1))
+    fn response(&self, request: &ResponseRequest) -> Reply {
+        Verbs::response(&belt_system::described(self)?, request)
     }
 
     fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {

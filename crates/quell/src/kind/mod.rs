@@ -13,8 +13,8 @@ use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
 use crate::run::recorded_motion::ObservedMotion;
+use crate::run::response::ResponseRequest;
 use crate::run::simulate::MotionRequest;
-use crate::run::system::response::ResponseRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::thresholds::curves::CurvesRequest;
@@ -116,30 +116,13 @@ pub trait Verbs: Send + Sync {
     /// As [`crate::run::simulate::run`].
     fn simulate(&self, request: &MotionRequest) -> Reply;
 
-    /// The steady response.
+    /// The steady response; under noise of runs with different seeds; or what one run does between two of its times.
     ///
     /// # Errors
-    /// A kind without this verb; as [`crate::run::response::run`].
-    fn response(&self) -> Reply {
+    /// A kind without this verb; as [`crate::run::response::run`], [`crate::run::noise_response::run`], [`crate::run::window::run`].
+    fn response(&self, request: &ResponseRequest) -> Reply {
+        let _ = request;
         Err(self.lacks("response"))
-    }
-
-    /// The response under noise: runs with different seeds, and the share of them that ends quiet; `times` of a system.
-    ///
-    /// # Errors
-    /// A kind without this verb; as [`crate::run::noise_response::of_system`].
-    fn response_of_seeds(&self, seeds: Option<usize>, times: ResponseRequest) -> Reply {
-        let _ = (seeds, times);
-        Err(self.lacks("response --seeds"))
-    }
-
-    /// What a run does between two of its times.
-    ///
-    /// # Errors
-    /// A kind without this verb; as [`crate::run::window::run`].
-    fn response_within(&self, window: (f64, f64)) -> Reply {
-        let _ = window;
-        Err(self.lacks("response --window"))
     }
 
     /// One run in which a drive, a load or an amplitude changes slowly, compared with the exact thresholds.
@@ -148,15 +131,6 @@ pub trait Verbs: Send + Sync {
     /// A kind without this verb; as [`crate::run::ramp::run`].
     fn ramp(&self) -> Reply {
         Err(self.lacks("bifurcation --ramp"))
-    }
-
-    /// The steady response of a system, with times of its own.
-    ///
-    /// # Errors
-    /// A kind without this verb; as [`crate::run::system::response::run`].
-    fn response_after(&self, request: ResponseRequest) -> Reply {
-        let _ = request;
-        Err(self.lacks("response --settle"))
     }
 
     /// A periodic response and its multipliers.
@@ -373,8 +347,11 @@ impl Verbs for OverTime {
         self.steady.simulate(request)
     }
 
-    fn response_within(&self, window: (f64, f64)) -> Reply {
-        self.steady.response_within(window)
+    fn response(&self, request: &ResponseRequest) -> Reply {
+        match request.window {
+            Some(_) => self.steady.response(request),
+            None => Err(self.lacks("response")),
+        }
     }
 
     fn ramp(&self) -> Reply {

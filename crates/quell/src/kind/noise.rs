@@ -7,8 +7,8 @@ use crate::complaint::Failure;
 use crate::outcome::Outcome;
 use crate::run::probability::{ProbabilityRequest, ProbabilityStart};
 use crate::run::recorded_motion::ObservedMotion;
+use crate::run::response::ResponseRequest;
 use crate::run::simulate::MotionRequest;
-use crate::run::system::response::ResponseRequest;
 use crate::study::{BeltSetup, not_periodic};
 use crate::sweep::Running;
 
@@ -97,20 +97,8 @@ impl Verbs for UnderNoise {
         self.periodic.simulate(request)
     }
 
-    fn response(&self) -> Reply {
-        self.response_of_seeds(None, ResponseRequest::default())
-    }
-
-    fn response_of_seeds(&self, seeds: Option<usize>, times: ResponseRequest) -> Reply {
-        self.periodic.response_of_seeds(seeds, times)
-    }
-
-    fn response_after(&self, times: ResponseRequest) -> Reply {
-        self.response_of_seeds(None, times)
-    }
-
-    fn response_within(&self, window: (f64, f64)) -> Reply {
-        self.periodic.response_within(window)
+    fn response(&self, request: &ResponseRequest) -> Reply {
+        self.periodic.response(request)
     }
 
     fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {

@@ -10,15 +10,15 @@ use crate::run::bifurcation::SweepRequest;
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::recorded_motion::ObservedMotion;
+use crate::run::response::ResponseRequest;
 use crate::run::simulate::MotionRequest;
-use crate::run::system::response::ResponseRequest;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{design, exact, measured, modes, reach, response, tracked};
+use crate::run::system::{design, exact, measured, modes, reach, tracked};
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
     actuator, bifurcation, describing, found_attractor, friction, noise_response, orbit,
-    probability, ramp, simulate, stability, thresholds, waveforms, window,
+    probability, ramp, response, simulate, stability, thresholds, waveforms, window,
 };
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;
@@ -126,24 +126,18 @@ impl Verbs for SystemStudy {
         answer(self, simulate::run(self, request))
     }
 
-    fn response(&self) -> Reply {
-        self.response_after(ResponseRequest::default())
-    }
-
-    fn response_of_seeds(&self, seeds: Option<usize>, times: ResponseRequest) -> Reply {
-        answer(self, noise_response::of_system(self, seeds, times))
-    }
-
-    fn response_within(&self, window: (f64, f64)) -> Reply {
-        answer(self, window::run(self, window))
+    fn response(&self, request: &ResponseRequest) -> Reply {
+        if let Some(window) = request.window {
+            return answer(self, window::run(self, window));
+        }
+        if request.seeds.is_some() || self.system().has_noise() {
+            return answer(self, noise_response::run(self, *request));
+        }
+        answer(self, response::run(self, *request))
     }
 
     fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
         ObservedMotion::of(self, verb)
-    }
-
-    fn response_after(&self, request: ResponseRequest) -> Reply {
-        answer(self, response::run(self, request))
     }
 
     fn orbit(&self, wanted: &Wanted) -> Reply {

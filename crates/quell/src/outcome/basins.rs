@@ -1,5 +1,6 @@
 //! `basins`: the motion on which each start ends.
 
+use crate::run::system::attractor::in_words;
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
@@ -76,7 +77,7 @@ fn motions(study: &SystemStudy, portrait: &Portrait) -> String {
             100.0 * share.fraction,
             100.0 * share.low,
             100.0 * share.high,
-            attractor.words(study.units()),
+            in_words(attractor, study.units()),
             in_units(study.units(), Quantity::Displacement, attractor.size()),
             if stick.is_empty() { "0".to_owned() } else { stick.join(", ") },
         );

@@ -1,5 +1,6 @@
 //! `bifurcation`: the motion along a parameter, swept up and down.
 
+use quell_dynamics::attractor::MotionKind;
 use std::fmt::Write as _;
 
 use serde_json::Value as Json;
@@ -11,7 +12,6 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::bifurcation::{Bifurcation, Branch, SweepPoint, words};
-use crate::run::system::attractor::MotionKind;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for Bifurcation {

@@ -68,7 +68,7 @@ fn axes<K>(table: &mut TextTable, study: &StudyOf<K>) {
 
 fn table_of_system(study: &SystemStudy) -> String {
     let system = study.system();
-    let mut table = TextTable::new(None);
+    let mut table = TextTable::default();
     table.word("units", study.units().name());
     let names = system.structure.names();
     let listed = names.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
@@ -169,7 +169,7 @@ fn frequency_of(units: UnitSystem, wave: &Wave) -> String {
 
 fn table_of_disc(study: &DiscStudy) -> String {
     let object = disc::check::json(study);
-    let mut table = TextTable::new(None);
+    let mut table = TextTable::default();
     let word = |value: &Json| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     table.word(
         "modes",

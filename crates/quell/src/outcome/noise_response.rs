@@ -1,4 +1,4 @@
-//! `response` under noise, of belts and systems.
+//! `response` under noise.
 
 use quell_model::units::Quantity;
 use quell_numerics::order::ascending;
@@ -13,8 +13,8 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::noise_response::NoiseResponse;
 use crate::run::system::in_units;
-use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
-use crate::words::{digits, in_words};
+use crate::study::{SystemSetup, SystemStudy};
+use crate::words::digits;
 
 /// The numbers without units, as rows.
 fn table(found: &NoiseResponse, table: &mut TextTable, band: &str) {
@@ -24,40 +24,10 @@ fn table(found: &NoiseResponse, table: &mut TextTable, band: &str) {
     table.word("band of E, up to", band);
 }
 
-impl Presented<BeltSetup> for NoiseResponse {
-    fn json(&self, study: &BeltStudy) -> Json {
-        let sentence = Presented::sentence(self, study).unwrap_or_default();
-        self.json_of_belt(Fields::new(study.scales()), sentence)
-    }
-
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(Self::sentence(self, |quantity, value| in_words(study, quantity, value)))
-    }
-
-    fn table(&self, study: &BeltStudy) -> String {
-        let mut text = TextTable::new(study.scales());
-        table(self, &mut text, &format!("{} ω₀", self.band_end));
-        let of = |value: Option<f64>| value.ok_or_else(|| "unknown".to_owned());
-        let cost = self.costs.first().and_then(|cost| cost.as_ref().ok());
-        text.known("rms force of the dither", Quantity::Force, of(cost.map(|cost| cost.force)));
-        text.known("  rms stroke", Quantity::Displacement, of(cost.map(|cost| cost.displacement)));
-        text.known("  power", Quantity::Power, of(cost.map(|cost| cost.power)));
-        text.text()
-    }
-
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("runs", self.columns(Dataset::new(study, "response: seeds")))]
-    }
-
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::noise_response::of_belt(study, self)))
-    }
-}
-
 impl Presented<SystemSetup> for NoiseResponse {
     fn json(&self, study: &SystemStudy) -> Json {
         let sentence = Presented::sentence(self, study).unwrap_or_default();
-        self.json_of_system(|| Fields::of_system(study.units()), sentence)
+        self.json(|| Fields::of_system(study.units()), sentence)
     }
 
     fn sentence(&self, study: &SystemStudy) -> Option<String> {
@@ -65,7 +35,7 @@ impl Presented<SystemSetup> for NoiseResponse {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        let mut text = TextTable::new(None);
+        let mut text = TextTable::default();
         let with = |quantity: Quantity, value: f64| in_units(study.units(), quantity, value);
         table(self, &mut text, &with(Quantity::FrequencyRatio, self.band_end));
         for (contact, name) in self.contacts.iter().enumerate() {
@@ -98,6 +68,6 @@ impl Presented<SystemSetup> for NoiseResponse {
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::noise_response::of_system(study, self)))
+        Some(Ok(picture::noise_response::figure(study, self)))
     }
 }

@@ -26,7 +26,7 @@ impl Presented<SystemSetup> for Ramp {
 
     fn table(&self, study: &SystemStudy) -> String {
         let with = |quantity, value| in_units(study.units(), quantity, value);
-        let mut table = TextTable::new(None);
+        let mut table = TextTable::default();
         for switch in &self.switches {
             table.word(event(switch.to_quiet), &with(self.ramped.quantity, switch.value));
             table.word("  at the time", &with(Quantity::Time, switch.time));

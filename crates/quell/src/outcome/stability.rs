@@ -65,7 +65,7 @@ impl Presented<DiscSetup> for DiscStability {
 const MOST_CHANGES: usize = 6;
 
 fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
-    let mut table = TextTable::new(None);
+    let mut table = TextTable::default();
     table.word("verdict", done.growth.verdict().name());
     let hertz = study.reference_hz();
     let rate = |rate: f64| {

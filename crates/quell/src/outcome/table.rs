@@ -1,79 +1,26 @@
-//! Short tables for people: label, value, unit, and the value in SI.
+//! Short tables for people.
 
-use crate::quantity::unit_of;
 use crate::study::DiscStudy;
-use quell_model::units::{Quantity, Scales};
 
 /// Digits of a number in a table.
 const DIGITS: usize = 7;
 
-/// A table under construction.
-#[derive(Debug)]
-pub(super) struct TextTable {
-    scales: Option<Scales>,
-    rows: Vec<[String; 4]>,
-}
+/// A table under construction: rows of a label and a text.
+#[derive(Debug, Default)]
+pub(super) struct TextTable(Vec<(String, String)>);
 
 impl TextTable {
-    /// An empty table of a study with these scales.
-    pub(super) fn new(scales: Option<Scales>) -> Self {
-        Self { scales, rows: Vec::new() }
-    }
-
-    /// A row of a quantity.
-    pub(super) fn number(&mut self, label: &str, quantity: Quantity, value: f64) {
-        if !value.is_finite() {
-            return self.word(label, "undefined: beyond the range of floating-point numbers");
-        }
-        let unit = unit_of(quantity, self.scales);
-        let unit = if unit == "1" { String::new() } else { unit };
-        let scales = self.scales.filter(|_| quantity != Quantity::Displacement);
-        let si = match scales.and_then(|scales| scales.one(quantity)) {
-            Some((one, unit)) => format!("{} {unit}", figure(value * one)),
-            None => String::new(),
-        };
-        self.rows.push([label.to_owned(), figure(value), unit, si]);
-    }
-
-    /// A row of a quantity, or why it is undefined.
-    pub(super) fn known(&mut self, label: &str, quantity: Quantity, value: Result<f64, String>) {
-        match value {
-            Ok(value) => self.number(label, quantity, value),
-            Err(why) => self.word(label, &format!("undefined: {why}")),
-        }
-    }
-
-    /// A row of text.
+    /// A row.
     pub(super) fn word(&mut self, label: &str, value: &str) {
-        self.rows.push([label.to_owned(), value.to_owned(), String::new(), String::new()]);
+        self.0.push((label.to_owned(), value.to_owned()));
     }
 
     /// The table as text.
     pub(super) fn text(&self) -> String {
-        // Rows of words may be long and do not widen the columns.
-        let width = |column: usize| {
-            let measured = self.rows.iter().filter(|row| column == 0 || !is_word(row));
-            measured.map(|row| row[column].chars().count()).max().unwrap_or(0)
-        };
-        let widths = [width(0), width(1), width(2)];
-        let mut text = String::new();
-        for row in &self.rows {
-            let mut line = String::from(" ");
-            for (cell, width) in row.iter().zip(widths.iter().chain([&0])) {
-                let pad = width.saturating_sub(cell.chars().count());
-                line.push(' ');
-                line.push_str(cell);
-                line.extend(std::iter::repeat_n(' ', pad + 1));
-            }
-            text.push_str(line.trim_end());
-            text.push('\n');
-        }
-        text
+        let width = self.0.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+        let rows = self.0.iter().map(|(label, value)| format!("  {label:<width$}  {value}\n"));
+        rows.collect()
     }
-}
-
-fn is_word(row: &[String; 4]) -> bool {
-    row[2].is_empty() && row[3].is_empty() && row[1].parse::<f64>().is_err()
 }
 
 /// Frequencies of a disc in hertz, in brackets; empty if the study does not define ω_ref.
@@ -141,13 +88,5 @@ mod tests {
         ] {
             assert_eq!(figure(value), text);
         }
-    }
-
-    #[test]
-    fn a_study_in_si_shows_both() {
-        let mut table = TextTable::new(Scales::new(2.0, 200.0).ok());
-        table.number("time", Quantity::Time, 30.0);
-        table.number("stick fraction", Quantity::Ratio, 0.25);
-        assert_eq!(table.text(), "  time            30    1/ω₀  3 s\n  stick fraction  0.25\n");
     }
 }

@@ -12,10 +12,11 @@ use crate::plot::{
     SharedLegend, Size,
 };
 use crate::run::basins::{Basins, FoundBasin, Portrait, Share, quiescence};
-use crate::run::system::attractor::MotionKind;
-use crate::run::system::cycle_samples::CycleSamples;
+use crate::run::system::attractor::in_words;
 use crate::run::system::start::state_quantity;
 use crate::study::SystemStudy;
+use quell_dynamics::attractor::MotionKind;
+use quell_dynamics::motion::orbit::CycleSamples;
 
 /// Most states of a motion that are drawn.
 const STATES: usize = 400;
@@ -67,7 +68,7 @@ fn plane(study: &SystemStudy, done: &Basins, portrait: &Portrait) -> Result<Pane
     let [(across, x), (up, y)] = [0, 1].map(|number| axis(study, done, number));
     let outcome = |(place, basin): (usize, &FoundBasin)| {
         let share = 100.0 * basin.share.fraction;
-        let words = basin.attractor.words(study.units());
+        let words = in_words(&basin.attractor, study.units());
         (role(&portrait.basins, place), format!("{words}: {share:.1}\u{a0}%"))
     };
     let outcomes = portrait.basins.iter().enumerate().map(outcome);

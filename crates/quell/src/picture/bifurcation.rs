@@ -1,5 +1,6 @@
 //! The bifurcation diagram: stroboscopic section, peak-to-peak and slow frequency over the parameter, swept up and down.
 
+use quell_dynamics::attractor::SystemAttractor;
 use quell_model::units::Quantity;
 use quell_numerics::order::ascending_by;
 
@@ -9,7 +10,6 @@ use super::system::axis_of;
 use super::with_unstable;
 use crate::plot::{Figure, Marker, Panel, PlotRole, Points, Polyline, SharedLegend, Sharing, Size};
 use crate::run::bifurcation::{Bifurcation, Branch, SweepDirection};
-use crate::run::system::attractor::SystemAttractor;
 use crate::study::SystemStudy;
 
 /// Maximum number of states of all sections that are drawn: more states overlap, and the file would have many megabytes.

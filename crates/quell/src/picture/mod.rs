@@ -32,7 +32,6 @@ mod stability;
 mod sweep;
 pub mod system;
 pub mod system_modes;
-pub mod system_motion;
 mod thresholds;
 mod waveforms;
 mod window;
@@ -57,8 +56,7 @@ pub(crate) use window::window;
 
 use crate::complaint::Failure;
 use crate::output::Output;
-use crate::plot::{Figure, Fill, Panel, PlotError, PlotRole, Polyline, Region};
-use crate::study::BeltStudy;
+use crate::plot::{Figure, Fill, Panel, PlotError, PlotRole, Region};
 
 /// File name extensions of the supported picture formats.
 pub const EXTENSIONS: &[&str] = &["svg", "pdf", "png"];
@@ -89,14 +87,4 @@ fn with_unstable(panel: Panel, intervals: Vec<(f64, f64)>) -> Panel {
         let region = Region::across_x(PlotRole::Undecided, from, to).fill(Fill::Hatched);
         panel.with(region.label(label))
     })
-}
-
-/// Adds the curves without and with dither to a panel, or the single curve of a study without dither.
-fn both(panel: Panel, study: &BeltStudy, curve: impl Fn(PlotRole, bool) -> Polyline) -> Panel {
-    if study.belt().dithers().is_empty() {
-        return panel.with(curve(PlotRole::Exact, true));
-    }
-    panel
-        .with(curve(PlotRole::Undithered, false).label("without dither"))
-        .with(curve(PlotRole::Dithered, true).label("with dither"))
 }

@@ -2,23 +2,13 @@
 
 use quell_numerics::order::ascending;
 
-use super::caption::{caption_of_run, caption_of_system};
+use super::caption::caption_of_system;
 use crate::plot::{Figure, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine};
 use crate::run::noise_response::{NoiseResponse, QUIET};
-use crate::study::{BeltStudy, SystemStudy};
-
-/// Of a belt.
-pub(crate) fn of_belt(study: &BeltStudy, done: &NoiseResponse) -> Figure {
-    figure(done).caption(caption_of_run(study)).title(study.title().unwrap_or_default())
-}
-
-/// Of a system.
-pub(crate) fn of_system(study: &SystemStudy, done: &NoiseResponse) -> Figure {
-    figure(done).caption(caption_of_system(study)).title(study.title().unwrap_or_default())
-}
+use crate::study::SystemStudy;
 
 /// E of the runs against the share of runs that do not exceed it.
-fn figure(done: &NoiseResponse) -> Figure {
+pub(crate) fn figure(study: &SystemStudy, done: &NoiseResponse) -> Figure {
     let mut each = done.residual_vibrations().unwrap_or_default();
     ascending(&mut each);
     let count = each.len().max(1) as f64;
@@ -33,5 +23,5 @@ fn figure(done: &NoiseResponse) -> Figure {
     let panel = Panel::new(PlotAxis::new("residual vibration").symbol("E"), vertical)
         .with(Polyline::new(PlotRole::Exact, points))
         .with(ReferenceLine::vertical(QUIET).label("quiet"));
-    Figure::single(panel)
+    Figure::single(panel).caption(caption_of_system(study)).title(study.title().unwrap_or_default())
 }

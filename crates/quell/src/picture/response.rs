@@ -1,84 +1,112 @@
 //! The end of the record and the spectra, with and without dither.
 
-use std::f64::consts::TAU;
-
-use quell_dynamics::response::BAND_END;
-use quell_dynamics::simulation::Sample;
+use quell_dynamics::response::SettledRecord;
 use quell_model::units::Quantity;
-use quell_numerics::spectrum::Spectrum;
 
-use super::both;
-use super::caption::caption_of_run;
-use super::ruler::{Ruler, time_axis};
-use crate::plot::{Figure, Panel, Polyline, ReferenceLine, SharedLegend};
+use super::caption::caption_of_system;
+use super::ruler::{Ruler, time_between};
+use super::system::frequency_axis;
+use crate::plot::{Figure, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend};
 use crate::run::response::MeasuredResponse;
-use crate::study::BeltStudy;
+use crate::run::system::start::start_in_words;
+use crate::study::SystemStudy;
+use crate::words::capital;
 
-/// Number of slow periods of the record that are shown.
-const PERIODS: f64 = 6.0;
+/// Number of periods of the strongest slow line of the record that are shown.
+const PERIODS_SHOWN: f64 = 8.0;
 
 /// Number of decades of the spectrum that are shown below its largest line.
 const DECADES: i32 = 5;
 
-/// The picture of a steady response.
-pub fn response(study: &BeltStudy, done: &MeasuredResponse) -> Figure {
-    let panels = [record(study, done), spectrum(study, done)];
-    Figure::grid(1, panels)
-        .legend(SharedLegend::Above)
-        .title(study.title().unwrap_or_default())
-        .caption(caption_of_run(study))
+/// The picture of a steady response: the end of the record and the spectrum, with and without dither.
+pub fn response(study: &SystemStudy, done: &MeasuredResponse) -> Figure {
+    let (with, without) = (&done.response.dithered, &done.response.undithered);
+    let dithered = done.has_dither();
+    let start = start_in_words(study, &Vec::new());
+    Figure::grid(
+        1,
+        [record(study, done, dithered), spectra(study, [with, without], dithered, done)],
+    )
+    .legend(if dithered { SharedLegend::Above } else { SharedLegend::default() })
+    .title(study.title().unwrap_or_default())
+    .caption(format!("{} {}.", caption_of_system(study), capital(&start)))
 }
 
-fn record(study: &BeltStudy, done: &MeasuredResponse) -> Panel {
-    let end = |samples: &[Sample]| -> Vec<Sample> {
-        let last = samples.last().map_or(0.0, |sample| sample.time);
-        samples.iter().copied().filter(|sample| sample.time >= last - PERIODS * TAU).collect()
-    };
-    let with = end(&done.response.record.samples);
-    let without = end(&done.response.undithered_record.samples);
-    let samples = || with.iter().chain(&without);
-    let time = Ruler::of(study, Quantity::Time, samples().map(|sample| sample.time));
-    let place =
-        Ruler::of(study, Quantity::Displacement, samples().map(|sample| sample.displacement));
-    let curve = |samples: &[Sample], role| {
-        let points = samples
-            .iter()
-            .map(|sample| (time.place(sample.time), place.place(sample.displacement)));
-        Polyline::new(role, points.collect::<Vec<_>>())
-    };
-    let panel = Panel::new(time_axis(study, &time), place.axis("displacement", "x"));
-    both(panel, study, |role, dithered| curve(if dithered { &with } else { &without }, role))
-}
-
-fn spectrum(study: &BeltStudy, done: &MeasuredResponse) -> Panel {
-    let with = &done.response.record.spectrum;
-    let without = &done.response.undithered_record.spectrum;
-    let largest = |spectrum: &Spectrum| spectrum.amplitudes().iter().copied().fold(0.0, f64::max);
-    let top = largest(with).max(largest(without));
-    let fastest = study
-        .belt()
-        .dithers()
-        .iter()
-        .fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
-    let end = (1.3 * fastest).max(4.0);
-    let rate = Ruler::new(study, Quantity::FrequencyRatio, end);
-    let size = Ruler::new(study, Quantity::Displacement, top);
-    let floor = top * 10f64.powi(-DECADES);
-    let curve = |spectrum: &Spectrum, role| {
-        let lines = spectrum.frequencies().zip(spectrum.amplitudes().iter().copied());
-        let shown = lines.skip(1).take_while(|(frequency, _)| *frequency <= end);
-        // Points below the visible range are clipped slightly below it, so that the line continues to the edge.
-        let points = shown.map(|(frequency, amplitude)| {
-            (rate.place(frequency), size.place(amplitude.max(0.1 * floor)))
-        });
-        Polyline::new(role, points.collect::<Vec<_>>())
-    };
-    let symbol = if study.scales().is_some() { "f" } else { "ω/ω_0" };
-    let mut vertical = size.axis("spectral amplitude", "|x|").log();
-    if top > 0.0 {
-        vertical = vertical.between(size.place(floor), size.place(2.0 * top));
+/// The records with and without dither, or one of them.
+fn both(panel: Panel, dithered: bool, curves: [Vec<(f64, f64)>; 2]) -> Panel {
+    let [with, without] = curves;
+    if !dithered {
+        return panel.with(Polyline::new(PlotRole::Exact, without));
     }
-    let panel = Panel::new(rate.axis("frequency", symbol).between(0.0, rate.place(end)), vertical)
-        .with(ReferenceLine::vertical(rate.place(BAND_END)).label("band of $E$"));
-    both(panel, study, |role, dithered| curve(if dithered { with } else { without }, role))
+    panel
+        .with(Polyline::new(PlotRole::Undithered, without).label("without dither"))
+        .with(Polyline::new(PlotRole::Dithered, with).label("with dither"))
+}
+
+fn record(study: &SystemStudy, done: &MeasuredResponse, dithered: bool) -> Panel {
+    let (with, without) = (&done.response.dithered, &done.response.undithered);
+    let lines = without.spectrum.frequencies().zip(without.spectrum.amplitudes()).skip(1);
+    let low = lines.take_while(|(frequency, _)| *frequency <= done.response.band_end);
+    let strongest = low.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0.0, |(frequency, _)| frequency);
+    let shown = PERIODS_SHOWN * std::f64::consts::TAU / strongest;
+    let end = done.plan.settle + done.plan.length;
+    let first = (end - shown.min(done.plan.length)).max(done.plan.settle);
+    let (time, clock) = time_between(study, (first, end));
+    let values = [with, without].map(|record| record.samples.iter().copied());
+    let x = Ruler::of_system(study, Quantity::Displacement, values.into_iter().flatten());
+    let points = |record: &SettledRecord| -> Vec<(f64, f64)> {
+        let samples = record.samples.iter().enumerate();
+        let times = samples
+            .map(|(number, value)| (f64::mul_add(number as f64, record.step, record.from), *value));
+        let shown = times.filter(|(time, _)| *time >= first);
+        shown.map(|(time, value)| (clock.place(time), x.place(value))).collect()
+    };
+    let panel = Panel::new(time, x.axis("observed displacement", ""));
+    both(panel, dithered, [points(with), points(without)])
+}
+
+fn spectra(
+    study: &SystemStudy,
+    records: [&SettledRecord; 2],
+    dithered: bool,
+    done: &MeasuredResponse,
+) -> Panel {
+    let (across, factor) = frequency_axis(study, "ω");
+    let largest =
+        |record: &SettledRecord| record.spectrum.amplitudes().iter().copied().fold(0.0, f64::max);
+    let top = largest(records[0]).max(largest(records[1]));
+    let floor = top * 10f64.powi(-DECADES);
+    let size = Ruler::of_system(study, Quantity::Displacement, [top]);
+    let end = 1.3 * fastest_line(records, floor);
+    let points = records.map(|record| -> Vec<(f64, f64)> {
+        let lines = record.spectrum.frequencies().zip(record.spectrum.amplitudes());
+        let shown = lines.skip(1).take_while(|(frequency, _)| *frequency <= end);
+        shown
+            .map(|(frequency, amplitude)| {
+                (factor * frequency, size.place(amplitude.max(0.1 * floor)))
+            })
+            .collect()
+    });
+    let mut up = size.axis("spectral amplitude", "").log();
+    if top > 0.0 {
+        up = up.between(size.place(floor), size.place(2.0 * top));
+    }
+    let mut panel = Panel::new(across.between(0.0, factor * end), up);
+    if dithered {
+        let band = factor * done.response.band_end;
+        panel = panel.with(ReferenceLine::vertical(band).label("band of $E$"));
+    }
+    both(panel, dithered, points)
+}
+
+/// The highest frequency of a line above a hundred times the floor.
+fn fastest_line(records: [&SettledRecord; 2], floor: f64) -> f64 {
+    let highest = |record: &SettledRecord| {
+        let lines = record.spectrum.frequencies().zip(record.spectrum.amplitudes()).skip(1);
+        let high = lines.filter(|(_, amplitude)| **amplitude > 100.0 * floor);
+        high.map(|(frequency, _)| frequency).last()
+    };
+    let all = records.map(highest).into_iter().flatten().fold(0.0, f64::max);
+    let last = records[0].spectrum.frequencies().last().unwrap_or(1.0);
+    if all > 0.0 { all } else { last }
 }

@@ -68,15 +68,6 @@ impl Ruler {
         }
     }
 
-    /// A ruler for these values.
-    pub(super) fn of(
-        study: &BeltStudy,
-        quantity: Quantity,
-        values: impl IntoIterator<Item = f64>,
-    ) -> Self {
-        Self::new(study, quantity, largest(values))
-    }
-
     /// The plot axis of a quantity.
     pub(super) fn axis(&self, name: &str, symbol: &str) -> PlotAxis {
         let axis = PlotAxis::new(name).symbol(symbol);
@@ -110,7 +101,10 @@ pub(super) fn short(value: f64) -> String {
 pub(super) fn words(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
     Ruler::new(study, quantity, value).words(value)
 }
-/// The axis of time.
-pub(super) fn time_axis(study: &BeltStudy, ruler: &Ruler) -> PlotAxis {
-    ruler.axis("time", if study.scales().is_some() { "t" } else { "τ" })
+
+/// The axis of time between two times, and its ruler.
+pub(super) fn time_between(study: &SystemStudy, (from, to): (f64, f64)) -> (PlotAxis, Ruler) {
+    let ruler = Ruler::of_system(study, Quantity::Time, [from, to]);
+    let axis = ruler.axis("time", "t").between(ruler.place(from), ruler.place(to));
+    (axis, ruler)
 }

@@ -5,8 +5,7 @@ use quell_model::units::Quantity;
 
 use super::caption::caption_of_system;
 use super::manoeuvre::around_response;
-use super::ruler::Ruler;
-use super::system_motion::time_axis;
+use super::ruler::{Ruler, time_between};
 use crate::plot::{
     Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
 };
@@ -48,7 +47,7 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
     let both = || [Some(&with), without.as_ref()].into_iter().flatten();
     let places = both().flat_map(|motion| motion.displacement.iter().copied());
     let x = Ruler::of_system(study, Quantity::Displacement, places);
-    let (time, clock) = time_axis(study, (done.start.time, done.end.time));
+    let (time, clock) = time_between(study, (done.start.time, done.end.time));
     let across = x.axis("observed displacement", "");
     let over_time = |motion: &Observed| -> Vec<(f64, f64)> {
         let times = motion.times.iter().map(|time| clock.place(*time));

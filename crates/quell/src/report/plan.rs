@@ -10,6 +10,7 @@ use crate::kind::{Reply, Verbs};
 use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
+use crate::run::response::ResponseRequest;
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::varied::key_of;
 use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStart, SystemStudy};
@@ -211,7 +212,7 @@ pub(super) fn ask(verbs: &dyn Verbs, asked: ReportedVerb) -> Reply {
     match asked {
         ReportedVerb::Modes => verbs.modes(),
         ReportedVerb::Stability => verbs.stability(),
-        ReportedVerb::Response => verbs.response(),
+        ReportedVerb::Response => verbs.response(&ResponseRequest::default()),
         ReportedVerb::Orbit => verbs.orbit(&Wanted::default()),
         ReportedVerb::Friction => verbs.friction(None, false),
         ReportedVerb::Resonances => verbs.resonances(ResonancesRequest::default()),

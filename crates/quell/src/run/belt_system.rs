@@ -1,11 +1,14 @@
 //! A belt as its system, which answers what is said of belts and systems alike. Its numbers keep their paths.
 
+use std::f64::consts::TAU;
+
 use quell_dynamics::start::InitialState;
-use quell_model::units::Quantity;
+use quell_model::units::{Quantity, UnitSystem};
 
 use crate::complaint::Failure;
 use crate::study::{
-    BeltStudy, DescribedSystem, GivenSize, Study, SystemStart, SystemStudy, not_periodic, plausible,
+    BeltStudy, DescribedSystem, GivenSize, RecordSettings, Solver, Study, SystemStart, SystemStudy,
+    not_periodic, plausible,
 };
 
 /// The system of a belt, for a verb about motions that repeat.
@@ -28,27 +31,65 @@ pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
 }
 
 fn warned(study: &BeltStudy, warnings: Vec<String>) -> Result<SystemStudy, Failure> {
-    let initial = match study.initial() {
-        InitialState::Rest => SystemStart::Rest,
-        InitialState::Sliding => SystemStart::Sliding,
-        InitialState::Squealing => SystemStart::Squealing,
-        InitialState::Explicit { displacement, velocity } => {
-            // The contact begins without load, as in `simulate`.
-            SystemStart::Values(vec![displacement, in_units(study, velocity), 0.0])
-        }
-    };
     Ok(study.as_system(DescribedSystem {
         system: study.system()?,
         units: study.units(),
         observe: vec![1.0],
-        initial,
+        initial: initial(study, |velocity| in_units(study, velocity)),
         warnings,
         sizes: sizes(study),
         actuator: study.actuator_in_units(),
         design: study.design_in_units(),
         tolerance: Some(study.solver().tolerance),
+        record: recorded(study),
         time: None,
     }))
+}
+
+/// The belt as a system in the numbers of the equations, without what its study has in units.
+pub(crate) fn dimensionless(study: &BeltStudy) -> SystemStudy {
+    let own = RecordSettings {
+        settle: Some(study.solver().settle),
+        length: Some(TAU * f64::from(study.solver().record_periods)),
+        band: None,
+    };
+    study.as_system(DescribedSystem {
+        system: study.belt().system(),
+        units: UnitSystem::None,
+        observe: vec![1.0],
+        initial: initial(study, |velocity| velocity),
+        warnings: Vec::new(),
+        sizes: Vec::new(),
+        actuator: None,
+        design: None,
+        tolerance: Some(study.solver().tolerance),
+        record: own,
+        time: None,
+    })
+}
+
+/// Where runs begin; `in_units` makes a velocity one of the system.
+fn initial(study: &BeltStudy, in_units: impl Fn(f64) -> f64) -> SystemStart {
+    match study.initial() {
+        InitialState::Rest => SystemStart::Rest,
+        InitialState::Sliding => SystemStart::Sliding,
+        InitialState::Squealing => SystemStart::Squealing,
+        InitialState::Explicit { displacement, velocity } => {
+            // The contact begins without load, as in `simulate`.
+            SystemStart::Values(vec![displacement, in_units(velocity), 0.0])
+        }
+    }
+}
+
+/// The record of a response, in these units.
+fn recorded(study: &BeltStudy) -> RecordSettings {
+    let one = study.scales().map_or(1.0, |scales| scales.to_units(Quantity::Time, 1.0));
+    let Solver { settle, record_periods, .. } = *study.solver();
+    RecordSettings {
+        settle: Some(one * settle),
+        length: Some(one * TAU * f64::from(record_periods)),
+        band: study.band().map(|ends| ends.map(|end| end / one)),
+    }
 }
 
 /// A velocity of the equations in the units of the system; displacements are lengths in both.

@@ -1,12 +1,13 @@
 //! `attractor`: the motion on which a run ends, and its Lyapunov exponents.
 
+use quell_dynamics::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
 use quell_dynamics::simulation::within;
 use quell_linear::pure_slip::period;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::exponents::{ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion};
-use super::system::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
+use super::system::attractor::{in_words, put_attractor};
 use super::system::of_runs::beyond_laws;
 use super::system::periods::slowest_period;
 use super::system::start::{StateNumbers, start_in_words, start_with};
@@ -45,7 +46,8 @@ pub fn run(study: &SystemStudy, request: &AttractorRequest) -> Result<FoundAttra
     has_equations(study, "attractor")?;
     let system = study.system();
     let start = start_with(study, &request.start)?.state;
-    let end = within(STEPS_OF_A_SEARCH, || end_of_run(system, &study.observe(), &start));
+    let end = within(STEPS_OF_A_SEARCH, || end_of_run(system, &study.observe(), &start))
+        .map_err(|why| why.to_string());
     let exponents = request.lyapunov.map(|times| {
         let times = times.over(|| slowest_period(study, "--record"))?;
         let attractor = end.as_ref().ok().map(|end| &end.attractor);
@@ -90,7 +92,7 @@ impl FoundAttractor {
         let start = &self.start;
         let end = match &self.end {
             Ok(end) => {
-                let words = end.attractor.words(study.units());
+                let words = in_words(&end.attractor, study.units());
                 format!("The run {start} ends on this motion: {words}.")
             }
             Err(why) if self.exponents.is_none() => format!(
@@ -117,7 +119,7 @@ impl FoundAttractor {
         match &self.end {
             Ok(end) => {
                 let mut inner = Fields::of_system(study.units());
-                end.attractor.put(&mut inner, study);
+                put_attractor(&mut inner, &end.attractor, study);
                 fields.nested("attractor", inner);
                 fields.plain("periods_until_settled", end.periods);
             }

@@ -6,7 +6,6 @@
 pub mod actuator;
 pub mod atlas;
 pub mod basins;
-mod belt_start;
 pub(crate) mod belt_system;
 pub mod bifurcation;
 pub mod check;

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use quell_dynamics::attractor::starts_of_mass;
 use quell_dynamics::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart};
 use quell_dynamics::response::vibration_frequency;
 use quell_linear::pure_slip::period;
 use quell_model::{OneMass, System};
 
-use super::system::attractor::starts_of_mass;
 use crate::range::{OF_START, of_starts};
 
 /// Periods of the vibration over which the slip of a motion of several masses is observed: the first ones, in which a transient is

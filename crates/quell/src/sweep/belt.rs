@@ -71,11 +71,7 @@ const OF_RESIDUAL_VIBRATION: &[Status] = &[
     Status::UnditheredUnknown,
 ];
 
-/// Statuses of stroke other than known.
-const OF_STROKE: &[Status] =
-    &[Status::Stalled, Status::NoSquealingStart, Status::OnlyNormalDither, Status::LinesUnknown];
-
-/// Statuses of power other than known.
+/// Statuses of power and stroke other than known.
 const OF_COST: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::OnlyNormalDither];
 
 /// Statuses of averaging other than known.
@@ -179,8 +175,8 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     belt("dither-power", "mean power supplied by tangential dither", Computation::ResponseWithCost, &[
         variable(("dither_power", "P"), "mean power of the dither", VariableKind::Number(units::Quantity::Power), OF_COST, |r| steady(r)?.dither_power.ok_or(Status::OnlyNormalDither)),
     ]),
-    belt("dither-stroke", "peak-to-peak displacement of the dither's actuator", Computation::ResponseWithCost, &[
-        variable(("dither_stroke", ""), "stroke of the dither's actuator", LENGTH, OF_STROKE, stroke),
+    belt("dither-stroke", "peak-to-peak displacement of the point on which tangential dither acts", Computation::ResponseWithCost, &[
+        variable(("dither_stroke", ""), "stroke of tangential dither", LENGTH, OF_COST, stroke),
     ]),
     belt("minimum-normal-load", "smallest normal load divided by k", Computation::Response, &[
         variable(("minimum_normal_load", "N_{min}"), "smallest normal load", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.minimum_normal_load)),
@@ -220,9 +216,7 @@ fn steady(results: &Results) -> Result<ResponseNumbers, Status> {
 
 fn stroke(results: &Results) -> Result<f64, Status> {
     let found = steady(results)?;
-    let has_power = found.dither_power.is_some();
-    let unknown = if has_power { Status::LinesUnknown } else { Status::OnlyNormalDither };
-    found.dither_stroke.ok_or(unknown)
+    found.dither_stroke.ok_or(Status::OnlyNormalDither)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "one of five words")]

@@ -3,6 +3,7 @@
 //! This is the only place that calls the engines for a map. Steady responses are computed for the
 //! whole chunk in one batch; the result of a point still depends on its own study alone.
 
+use quell_dynamics::motion::InputCost;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{
     Compared, Effect, Observables, ResponseCase, RunEnding, Undefined, compare_many, effect,
@@ -14,7 +15,7 @@ use quell_linear::averaging::{
     critical_amplitudes,
 };
 use quell_linear::growth::Growth;
-use quell_model::Belt;
+use quell_model::{Belt, Direction};
 
 use super::quench::{QuenchNumbers, quench_numbers};
 use super::status::Status;
@@ -22,7 +23,8 @@ use crate::complaint::Failure;
 use crate::contact_state::differs_from_rigid;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::range;
-use crate::run::response;
+use crate::run::belt_system;
+use crate::run::response::{self, ResponseRequest};
 use crate::study::BeltStudy;
 
 /// A computation that several quantities share.
@@ -389,28 +391,34 @@ pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Resu
 /// A steady response, and the effect of the dither if requested.
 type Responded = (ResponseNumbers, Option<Effect>);
 
-/// The steady response of a belt whose contact has a state, as `response` measures it.
+/// The steady response of a belt whose contact has a state, as `response` measures it, in the numbers of the equations.
 fn with_state(study: &BeltStudy, dither_cost: bool) -> Result<Responded, Status> {
     let squeals = study.initial() == InitialState::Squealing;
-    let found = response::run(study).map_err(|why| match why {
+    let system = belt_system::dimensionless(study);
+    let found = response::run(&system, ResponseRequest::default()).map_err(|why| match why {
         Failure::Wrong(_) if squeals => Status::NoSquealingStart,
         Failure::Wrong(_) => Status::InvalidStudy,
         Failure::Failed { .. } => Status::Stalled,
     })?;
-    let settled = found.settled();
     let response = &found.response;
-    let cost = |cost: Option<f64>| cost.filter(|_| dither_cost);
+    let [contact] = &response.dithered.contacts[..] else { return Err(Status::Stalled) };
+    let sticks = study.belt().friction().bristles().is_none();
+    let inputs = response.dithered.inputs.iter().zip(study.belt().dithers());
+    let tangential = inputs.filter(|(_, dither)| dither.direction == Direction::Tangential);
+    let costs: Vec<&InputCost> = tangential.filter_map(|(cost, _)| cost.as_ref().ok()).collect();
+    let costs = Some(costs).filter(|costs| dither_cost && !costs.is_empty());
     let numbers = ResponseNumbers {
         residual_vibration: response.residual_vibration,
-        amplitude: response.amplitude,
-        undithered_amplitude: response.undithered_amplitude,
-        stick_fraction: found.stick_fraction(study).map_err(|_| Status::NeverSticks),
-        settled,
-        mean_friction: response.mean_friction,
-        dither_power: cost(response.dither_power),
-        dither_stroke: cost(response.dither_stroke),
-        minimum_normal_load: response.minimum_normal_load,
-        largest_slip: found.slip.largest_beyond().unwrap_or_default(),
+        amplitude: response.dithered.lines.whole,
+        undithered_amplitude: response.undithered.lines.whole,
+        stick_fraction: if sticks { Ok(contact.stick_fraction) } else { Err(Status::NeverSticks) },
+        settled: found.settled()
+            && (found.undithered_settled() || response.residual_vibration.is_err()),
+        mean_friction: contact.friction,
+        dither_power: costs.as_ref().map(|costs| costs.iter().map(|cost| cost.power).sum()),
+        dither_stroke: costs.map(|costs| costs[0].stroke),
+        minimum_normal_load: contact.least_load,
+        largest_slip: response.largest_slip(0),
     };
     Ok((numbers, Some(response.effect)))
 }

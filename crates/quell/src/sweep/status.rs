@@ -78,8 +78,6 @@ pub enum Status {
     LoudAtLimit = 41,
     /// The first dither moves no contact.
     NoReach = 42,
-    /// Stroke: the lines of the dither are not measured ([`quell_dynamics::response::stroke_is_measured`]).
-    LinesUnknown = 43,
     /// A dither is a factor on a friction force, which averaging does not describe.
     FrictionFactor = 44,
     /// Not computed yet, or lost: the fill value of a store.
@@ -123,7 +121,6 @@ impl Status {
         Self::StaysQuiet,
         Self::LoudAtLimit,
         Self::NoReach,
-        Self::LinesUnknown,
         Self::FrictionFactor,
         Self::Missing,
     ];
@@ -180,7 +177,6 @@ impl Status {
             Self::StaysQuiet => "stays_quiet",
             Self::LoudAtLimit => "loud_at_limit",
             Self::NoReach => "no_reach",
-            Self::LinesUnknown => "lines_unknown",
             Self::FrictionFactor => "friction_factor",
             Self::Missing => "missing",
         }
@@ -208,9 +204,6 @@ impl Status {
                 "the vibration still changes within the record: raise solver.settle"
             }
             Self::Unresolved => "the dither changes the vibration by less than the record resolves",
-            Self::LinesUnknown => {
-                "the displacement at the frequencies of the dither is not separated from other vibration"
-            }
             Self::OnlyNormalDither => {
                 "all dither is normal, and the model has no motion in the normal direction"
             }

@@ -1,6 +1,7 @@
 //! Maps of systems: growth rates without dither and by averaging, critical amplitudes, base responses, the motions on which runs
 //! end, steady responses, and the quantities read from them.
 
+use quell_dynamics::attractor::end_of_run;
 use quell_dynamics::motion::orbit::family::NoImage;
 use quell_dynamics::motion::orbit::{BASE_STEPS, NoMotionOrbit, base_motion};
 use quell_dynamics::orbit::OrbitVerdict;
@@ -24,9 +25,8 @@ use crate::complaint::Failure;
 use crate::contact_state::averaged_without_states;
 use crate::range::outside_of_laws;
 use crate::run::protocol::Protocol;
-use crate::run::system::attractor::end_of_run;
+use crate::run::response::{self, ResponseRequest};
 use crate::run::system::of_runs::beyond_laws;
-use crate::run::system::response::{self, ResponseRequest};
 use crate::study::{SystemSetup, SystemStudy};
 
 /// Seconds of one growth rate of ten states, and how often a search of critical amplitudes computes one.
@@ -209,16 +209,12 @@ fn steady_response(study: &SystemStudy) -> Result<SystemResponsePoint, Status> {
         Failure::Failed { .. } => Status::Stalled,
     })?;
     let response = &found.response;
-    let records = [&response.dithered, &response.undithered].map(|record| &record.whole);
     Ok(SystemResponsePoint {
         residual_vibration: response.residual_vibration,
         effect: response.effect,
         amplitude: response.dithered.lines.whole,
         undithered_amplitude: response.undithered.lines.whole,
-        beyond_range: !beyond_laws(study, |contact| {
-            records.iter().map(|record| record.largest_slip(contact)).fold(0.0, f64::max)
-        })
-        .is_empty(),
+        beyond_range: !beyond_laws(study, |contact| response.largest_slip(contact)).is_empty(),
     })
 }
 

@@ -21,11 +21,13 @@
 
 mod approach;
 mod curves;
+mod cycle_samples;
 mod cycle_search;
 mod end;
 pub mod family;
 mod free;
 mod passages;
+mod passing;
 mod periodic;
 mod ramp;
 mod recurrence;
@@ -38,12 +40,14 @@ mod transient;
 mod watch;
 
 pub use curves::{MotionPlane, motion_curves};
+pub use cycle_samples::{CycleSamples, SampledContact};
 pub use cycle_search::{
     BASE_STEPS, CycleSearch, NamedStart, TriedStart, base_state, kicked_by, search_cycle,
     squealing_state, usual_starts, without_cycle,
 };
 pub use end::{RunOutcome, displaced, sliding_verdict};
 pub use free::{NoCycle, free_cycle, limit_cycles};
+pub use passing::nearest_distance;
 pub use periodic::{
     MotionOrbit, NoMotionOrbit, base_motion, is_on_sliding, motion_near, sliding_state,
 };

@@ -141,24 +141,15 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     residual_vibration_largest: float | None
     """Largest E."""
     amplitude: list[float]
-    """Largest spectral amplitude of each run in the band of slow vibration: of a belt with 0 < ω ≤ 1.9 ω₀, of a system below the
-    noise."""
+    """Largest spectral amplitude of each run in the band of slow vibration."""
     undithered_amplitude: float
     """The same without dither."""
-    stick_fraction: list[float] | None
-    """Belt: fraction of the time during which the mass sticks, of each run."""
-    mean_friction: float | None
-    """Belt: mean friction force over k, averaged over the runs: a length."""
-    mean_friction_undithered: float | None
-    """Belt: the same without dither."""
-    contacts: list[dict[str, Any]] | None
-    """System: ``stick_fraction`` (one of each run), ``mean_friction`` and ``mean_friction_undithered`` of every contact."""
-    dithers: list[dict[str, Any]] | None
-    """System: ``force_rms``, ``displacement_rms``, ``velocity_rms`` and ``power`` of every dither at its point."""
-    band_end: float | None
-    """System: upper end of the band."""
-    cost: dict[str, Any] | None
-    """Belt: linear response without friction: ``force_rms``, ``displacement_rms``, ``velocity_rms`` and ``power``; peaks have no value."""
+    contacts: list[dict[str, Any]]
+    """``stick_fraction`` (one of each run), ``mean_friction`` and ``mean_friction_undithered`` of every contact."""
+    dithers: list[dict[str, Any]]
+    """``force_rms``, ``displacement_rms``, ``velocity_rms`` and ``power`` of every dither at its point; peaks have no value."""
+    band_end: float
+    """Upper end of the band."""
     settle: float
     """Time before the record."""
     record_length: float
@@ -173,38 +164,26 @@ class Response(_columns.ResponseColumns, Result):
     """Effect of the dither: "quenches", "reduces", "increases", "causes" (quiet without, vibrating with), "quiet" or
     "unknown"."""
     ends_on: str
-    """Where the dithered run ends: "base response", "another response without slow motion of its own", "another response" or
-    "unknown"."""
+    """The motion on which the run ends: "period-1", "locked", "quasi-periodic", "not-periodic", "limit-cycle", "rest",
+    "unstable-sliding", "drift" or "unknown"."""
+    base_response: bool | None
+    """Whether that is the response that continues steady sliding as the dither grows."""
+    quiet: bool | None
+    """Whether it has no slow vibration of its own."""
     amplitude: float
-    """Largest spectral amplitude with 0 < ω ≤ 1.9 ω₀: a length."""
+    """Largest spectral amplitude in the band of slow vibration: a length."""
     undithered_amplitude: float
     """The same without dither."""
     residual_vibration: float | None
     """Residual vibration E = amplitude / undithered amplitude (2.27)."""
     level_db: float | None
     """20 lg E, in dB."""
-    stick_fraction: float
-    """Fraction of the time during which the mass sticks to the belt."""
     settled: bool
     """Whether both halves of the record have the same amplitude."""
     undithered_settled: bool
     """The same without dither."""
-    mean_friction: float
-    """Mean friction force over k: a length."""
-    mean_friction_undithered: float
-    """The same of the run without dither from the same start."""
-    steady_sliding_friction: float
-    """Friction force μ(v₀)F of steady sliding without dither, over k: a length."""
-    friction_loss: float | None
-    """Fraction of the friction of undithered steady sliding that is lost; negative if friction rises."""
-    dither_power: float | None
-    """Mean power of tangential dither over kω₀: a length squared."""
-    dither_stroke: float | None
-    """Stroke of the fast motion due to tangential dither: a length."""
-    minimum_normal_load: float
-    """Least normal force over k: a length."""
     peaks: list[dict[str, float]]
-    """Peaks of the spectrum: ``frequency`` (ω₀), ``amplitude``."""
+    """Peaks of the spectrum: ``frequency``, ``amplitude``."""
     band_displacement_level_db: float | None
     """Change of the level of the displacement in the band of the study, in dB."""
     band_velocity_level_db: float | None
@@ -218,38 +197,40 @@ class Response(_columns.ResponseColumns, Result):
     band_undithered_velocity_rms: float | None
     """The same without dither."""
     half_peak_to_peak: float
-    """System: half of the peak-to-peak value of ``observe``."""
+    """Half of the peak-to-peak value of ``observe``."""
     rms: float
-    """System: root mean square of ``observe`` about its mean."""
+    """Root mean square of ``observe`` about its mean."""
     mean: float
-    """System: mean of ``observe``."""
+    """Mean of ``observe``."""
     undithered_half_peak_to_peak: float
-    """System: ``half_peak_to_peak`` without dither."""
+    """``half_peak_to_peak`` without dither."""
     undithered_rms: float
-    """System: ``rms`` without dither."""
+    """``rms`` without dither."""
     undithered_mean: float
-    """System: ``mean`` without dither."""
-    settled_on: str
-    """System: what the run ends on: "orbit", "rest", "unstable sliding", "drift", or "record" where only the record was judged."""
-    undithered_settled_on: str
-    """System: the same without dither."""
+    """``mean`` without dither."""
+    undithered_ends_on: str
+    """``ends_on`` without dither."""
+    undithered_base_response: bool | None
+    """``base_response`` without dither."""
+    undithered_quiet: bool | None
+    """``quiet`` without dither."""
     period: float | None
-    """System: period of that motion, if it is periodic."""
+    """Period of that motion, if it is periodic."""
     undithered_period: float | None
-    """System: the same without dither."""
+    """The same without dither."""
     near_tangential_releases: int
-    """System: number of releases that barely crossed the stiction threshold."""
+    """Number of releases that barely crossed the stiction threshold."""
     band_end: float
-    """System: upper end of the band of ``amplitude`` and ``residual_vibration``, an angular frequency below the lowest dither."""
+    """Upper end of the band of ``amplitude`` and ``residual_vibration``, an angular frequency."""
     contacts: list[dict[str, Any]]
-    """System: ``name``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``, ``friction_power`` and
-    ``friction_loss`` of every contact."""
+    """``name``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``, ``least_normal``, ``friction_power``,
+    ``mean_friction_undithered``, ``steady_sliding_friction`` and ``friction_loss`` of every contact."""
     dithers: list[dict[str, Any]]
-    """System: ``power`` that each dither feeds in, and its peak-to-peak ``stroke``."""
+    """``power`` that each dither feeds in, and the peak-to-peak ``stroke`` of the point on which it acts."""
     band_from: float | None
-    """Lower end of the band of the study, in ω₀."""
+    """Lower end of the band of the study."""
     band_to: float | None
-    """Upper end of the band of the study, in ω₀."""
+    """Upper end of the band of the study."""
     settle: float
     """Time before the record."""
     record_length: float

@@ -37,7 +37,7 @@ pub(in crate::study) use dither::PLACES;
 pub use initial::SystemStart;
 pub use quell_input::frequency_response::FrequencyResponse;
 pub(in crate::study) use read::assemble;
-pub use setup::{DescribedSystem, ScaledTime, SystemSetup};
+pub use setup::{DescribedSystem, RecordSettings, ScaledTime, SystemSetup};
 
 use crate::study::path::{self, set};
 
@@ -121,6 +121,11 @@ impl SystemStudy {
     /// Bound on the last retained terms of a step of a run, relative to the load; `None` for that of the engine.
     pub fn tolerance(&self) -> Option<f64> {
         self.kind().tolerance
+    }
+
+    /// How a steady response is recorded, where the study says so.
+    pub fn record(&self) -> RecordSettings {
+        self.kind().record
     }
 
     /// Where a run begins.

@@ -15,7 +15,7 @@ use super::dither::{self, DitherContext, ReadDithers};
 use super::frequency_response;
 use super::modes;
 use super::rows::RowBasis;
-use super::setup::{SystemSetup, natural_frequency};
+use super::setup::{RecordSettings, SystemSetup, natural_frequency};
 use super::structure::{self, ReadStructure};
 use super::{initial, parameters, sized, unused};
 use crate::study::actuator;
@@ -70,6 +70,7 @@ pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup
         actuator: actuator?,
         sizes: sizes.into(),
         tolerance: None,
+        record: RecordSettings::default(),
         time: None,
     })
 }

@@ -35,6 +35,7 @@ pub struct SystemSetup {
     /// Amplitudes that are given by another size than a peak force.
     pub(super) sizes: Arc<[GivenSize]>,
     pub(super) tolerance: Option<f64>,
+    pub(super) record: RecordSettings,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
 }
@@ -46,6 +47,17 @@ pub struct ScaledTime {
     pub per_second: f64,
     /// Whether plain times of options are in seconds.
     pub plain_in_seconds: bool,
+}
+
+/// How a steady response is recorded, where a study says so; in the units of the system.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RecordSettings {
+    /// Time discarded before the record.
+    pub settle: Option<f64>,
+    /// Length of the record.
+    pub length: Option<f64>,
+    /// Band of angular frequencies in which levels are reported.
+    pub band: Option<[f64; 2]>,
 }
 
 /// A system that a study of another kind describes, with what a run of it needs.
@@ -69,6 +81,8 @@ pub struct DescribedSystem {
     pub design: Option<Design>,
     /// Bound on the last retained terms of a step of a run, relative to the load; `None` for that of the engine.
     pub tolerance: Option<f64>,
+    /// How a steady response is recorded.
+    pub record: RecordSettings,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
 }
@@ -85,6 +99,7 @@ impl From<DescribedSystem> for SystemSetup {
             actuator,
             design,
             tolerance,
+            record,
             time,
         } = described;
         warnings.extend(passivity::warnings(&system.contacts, units));
@@ -100,6 +115,7 @@ impl From<DescribedSystem> for SystemSetup {
             actuator,
             sizes: sizes.into(),
             tolerance,
+            record,
             time,
         }
     }

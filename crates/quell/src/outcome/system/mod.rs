@@ -4,7 +4,6 @@ mod exact;
 mod measured;
 mod modes;
 mod reach;
-mod response;
 mod tracked;
 
 use std::fmt::Write as _;

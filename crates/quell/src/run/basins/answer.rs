@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use super::{Basins, Portrait, Share};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::system::attractor::{VERDICTS, verdict_code};
+use crate::run::system::attractor::{VERDICTS, in_words, put_attractor, verdict_code};
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::{state_names, state_quantity};
 use crate::run::system::value_at;
@@ -106,7 +106,7 @@ impl Portrait {
             let mut inner = Fields::of_system(study.units());
             basin.share.put(&mut inner);
             inner.plain("periods_to_settle", basin.periods);
-            basin.attractor.put(&mut inner, study);
+            put_attractor(&mut inner, &basin.attractor, study);
             inner
         });
         let attractors: Vec<Fields> = attractors.collect();
@@ -299,7 +299,7 @@ impl Basins {
         let is_quiet = |place: usize| u8::from(portrait.basins[place].attractor.quiet);
         let quiet: Vec<u8> = portrait.ends.iter().map(|end| end.map_or(2, is_quiet)).collect();
         let mut dataset = Dataset::of(&study.into(), "basins");
-        let words = portrait.basins.iter().map(|basin| basin.attractor.words(study.units()));
+        let words = portrait.basins.iter().map(|basin| in_words(&basin.attractor, study.units()));
         for (place, words) in words.enumerate() {
             dataset = dataset.fact(format!("attractor {place}: {words}"));
         }

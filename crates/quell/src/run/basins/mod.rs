@@ -15,6 +15,10 @@ mod starts;
 #[cfg(test)]
 mod tests;
 
+use quell_dynamics::attractor::{
+    EndOfRun, NoEnd, SystemAttractor, ends_of_runs, judged_mass, measured_of_one_mass,
+    starts_of_mass,
+};
 use std::sync::atomic::Ordering;
 
 use quell_dynamics::attractor::{
@@ -26,10 +30,7 @@ use quell_model::{OneMass, System};
 
 use super::protocol::Protocol;
 use super::slip::SlipReached;
-use super::system::attractor::{
-    EndOfRun, SystemAttractor, ends_of_runs, judged_mass, local_verdict, measured_of_one_mass,
-    starts_of_mass,
-};
+use super::system::attractor::local_verdict;
 use super::system::tracked::{TrackRequest, understood};
 use super::system::{failed, has_equations};
 use super::varied::{MOST_VALUES, Range};
@@ -181,7 +182,7 @@ enum PartEnds {
     /// By the sections of one mass, not yet grouped.
     Settled(Vec<Result<Settled, Stalled>>),
     /// Each by itself.
-    Each(Vec<Result<EndOfRun, String>>),
+    Each(Vec<Result<EndOfRun, NoEnd>>),
 }
 
 /// Settles every start and groups the starts by motion.
@@ -309,7 +310,7 @@ impl BasinsPlan<'_> {
         parts: &[StartsOfTask],
     ) -> Result<Portrait, Failure> {
         let mut settled: Vec<Result<Settled, Stalled>> = Vec::new();
-        let mut each: Vec<Result<EndOfRun, String>> = Vec::new();
+        let mut each: Vec<Result<EndOfRun, NoEnd>> = Vec::new();
         let system = scene.study.system();
         let mut slip = SlipReached::new(system);
         for part in parts {
@@ -376,7 +377,7 @@ fn of_one_mass(
 
 impl Grouped {
     /// Ends of runs, of which the same motions are one.
-    fn of(system: &System, found: Vec<Result<EndOfRun, String>>) -> Self {
+    fn of(system: &System, found: Vec<Result<EndOfRun, NoEnd>>) -> Self {
         let mut grouped = Self::default();
         for end in found {
             let end = end.map(|EndOfRun { attractor, periods }| {
@@ -389,7 +390,7 @@ impl Grouped {
                 motions[place].1 = motions[place].1.max(periods);
                 place
             });
-            grouped.add(end);
+            grouped.add(end.map_err(|why| why.to_string()));
         }
         grouped
     }

@@ -1,5 +1,6 @@
 //! Sweeps in sentences, JSON and a dataset.
 
+use quell_dynamics::attractor::{MotionKind, SystemAttractor};
 use quell_dynamics::motion::orbit::MOST_PERIODS;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -8,7 +9,9 @@ use super::shared::{changes, hysteresis_sentence, jump, put_comparison};
 use super::{Bifurcation, SweepDirection, SweepPoint};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::system::attractor::{KINDS, MotionKind, SystemAttractor, VERDICTS, verdict_code};
+use crate::run::system::attractor::{
+    VERDICTS, in_words, put_attractor, section_rates, verdict_code,
+};
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
@@ -16,7 +19,7 @@ use crate::study::SystemStudy;
 /// The motion of a point in words.
 pub fn words(study: &SystemStudy, point: &SweepPoint) -> String {
     let attractor = point.attractor();
-    attractor.map_or_else(|| "unknown".to_owned(), |attractor| attractor.words(study.units()))
+    attractor.map_or_else(|| "unknown".to_owned(), |attractor| in_words(attractor, study.units()))
 }
 
 /// The same as a sentence has it.
@@ -173,7 +176,7 @@ impl Bifurcation {
             .with_axis(Array::new("row", "1", rows))
             .with(Array::of_words("direction", vec![(0, "up"), (1, "down")], &direction))
             .with(Array::new("parameter", unit, value))
-            .with(Array::of_words("kind", KINDS.to_vec(), &kind))
+            .with(Array::of_words("kind", SystemAttractor::KINDS.to_vec(), &kind))
             .with(Array::of_words("quiet", vec![(0, "no"), (1, "yes"), (2, "unknown")], &quiet))
             .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &local))
             .array("section_displacement", Quantity::Displacement, x)
@@ -207,7 +210,7 @@ fn rows(study: &SystemStudy, point: &SweepPoint) -> Vec<[f64; 11]> {
         _ => f64::NAN,
     };
     let settle = point.end.as_ref().map_or(f64::NAN, |end| f64::from(end.periods));
-    let rates = attractor.section_rates(study);
+    let rates = section_rates(attractor, study);
     let rate = |place: usize| of(rates.as_ref().and_then(|rates| rates.get(place).copied()));
     let states = attractor.section.iter().enumerate();
     let row = |(place, x): (usize, &f64)| {
@@ -238,7 +241,7 @@ fn put(study: &SystemStudy, point: &SweepPoint) -> Fields {
     match &point.end {
         Ok(end) => {
             fields.plain("periods_to_settle", end.periods);
-            end.attractor.put(&mut fields, study);
+            put_attractor(&mut fields, &end.attractor, study);
         }
         Err(why) => {
             fields.unknown("kind", why.as_str());

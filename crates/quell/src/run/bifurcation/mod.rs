@@ -4,12 +4,13 @@
 mod answer;
 mod shared;
 
+use quell_dynamics::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
 use std::sync::atomic::Ordering;
 
 use quell_dynamics::simulation::within;
 
 use super::protocol::Protocol;
-use super::system::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run, local_verdict};
+use super::system::attractor::local_verdict;
 use super::system::tracked::{TrackRequest, understood};
 use super::system::{failed, has_equations};
 use super::thresholds::ends_are_valid;
@@ -149,7 +150,7 @@ fn point(
         Some(state) => state,
         None => Protocol::Study.state(&study, system)?,
     };
-    let end = end_of_run(system, &study.observe(), &begun);
+    let end = end_of_run(system, &study.observe(), &begun).map_err(|why| why.to_string());
     let state = end.as_ref().map_or(begun, |end| end.attractor.state.clone());
     let local = local_verdict(system);
     let is_dithered = system.is_dithered();

@@ -2,10 +2,10 @@
 
 use quell_dynamics::motion::MotionStart;
 use quell_dynamics::motion::orbit::base_motion;
-use quell_dynamics::response::{PEAK_FLOOR, Peak, Spectrum, respond_system};
+use quell_dynamics::response::{PEAK_FLOOR, Peak, Spectrum, respond};
 use quell_model::System;
 
-use crate::run::system::response::{ResponseRequest, plan_of, undefined};
+use crate::run::response::{ResponseRequest, plan_of, undefined};
 use crate::study::SystemStudy;
 
 /// Steps by which the dither grows from zero to the base response.
@@ -42,7 +42,7 @@ pub(super) fn of_system(study: &SystemStudy, system: &System) -> Result<SlowResp
     let plan = plan_of(study, ResponseRequest::default()).map_err(|why| why.to_string())?;
     let orbit = base_motion(system, GROWTH_STEPS).map_err(|why| why.to_string())?;
     let start = MotionStart { time: 0.0, state: orbit.state };
-    let found = respond_system(system, &start, &plan).map_err(|why| why.to_string())?;
+    let found = respond(system, &start, &plan).map_err(|why| why.to_string())?;
     let residual_vibration = found.residual_vibration.map_err(undefined)?;
     let tones = [&found.dithered, &found.undithered].map(|record| strongest(&record.spectrum));
     let [Some(with), Some(without)] = tones else {

@@ -16,7 +16,9 @@ use crate::outcome::disc_units::{DiscUnits, FORCE, POWER};
 use crate::run::simulate::{MotionRequest, Simulation, run_observed};
 use crate::run::system::in_units_of;
 use crate::run::system::periods::slowest_period;
-use crate::study::{DescribedSystem, DiscStudy, ScaledTime, SystemStart, SystemStudy, UnitSystem};
+use crate::study::{
+    DescribedSystem, DiscStudy, RecordSettings, ScaledTime, SystemStart, SystemStudy, UnitSystem,
+};
 use crate::words::digits;
 
 /// Least number of periods of the leading small motion that a run lasts if no duration is given.
@@ -76,6 +78,7 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
         actuator: None,
         design: None,
         tolerance: None,
+        record: RecordSettings::default(),
         units: UnitSystem::None,
         system,
         observe: observed_row(study),

@@ -5,11 +5,8 @@
 //! with the same record without dither. A run counts as quiet where E is below [`QUIET`]: friction turns the differences of the
 //! lines' frequencies into a slow motion, so that E under noise is small but not zero. The share of quiet runs has the interval of
 //! Wilson (1927) at 95 %, for which the runs are independent samples.
-//!
-//! Belts and systems are measured by their own engines ([`of_belt`], [`of_system`]); what follows from the runs is the same.
 
-mod belt;
-mod system;
+mod runs;
 
 use quell_linear::linear_cost::NoiseCost;
 use quell_model::units::Quantity;
@@ -22,8 +19,7 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::words::{digits, plural};
 
-pub use belt::of_belt;
-pub use system::of_system;
+pub use runs::run;
 
 /// Number of runs by default: the interval of Wilson of 16 quiet runs of 16 begins at 81 %.
 pub const SEEDS: usize = 16;
@@ -71,16 +67,12 @@ pub struct NoiseResponse {
     pub undithered_amplitude: f64,
     /// Mean friction of every contact without dither.
     pub undithered_friction: Vec<f64>,
-    /// Root mean squares of the linear response to the dither, of a system to each of them, or why they are unknown.
+    /// Root mean squares of the linear response to the dither, to each of them, or why they are unknown.
     pub costs: Vec<Result<NoiseCost, String>>,
     /// Largest growth rate of small slow motions, averaged over the Gaussian distribution of the noise; or why it is unknown.
     pub averaged: Result<f64, String>,
     /// The start of every run in words.
     pub start: String,
-    /// Symbol of time.
-    pub clock: &'static str,
-    /// What makes records longer.
-    pub longer: &'static str,
     /// Time before the record.
     pub settle: f64,
     /// Length of a record.
@@ -183,8 +175,8 @@ impl NoiseResponse {
         let [settle, length] =
             [self.settle, self.length].map(|time| in_words(Quantity::Time, time));
         format!(
-            "Started {}, {result}. Each run is measured for {length} after {} = {settle}.",
-            self.start, self.clock
+            "Started {}, {result}. Each run is measured for {length} after t = {settle}.",
+            self.start
         )
     }
 
@@ -202,16 +194,15 @@ impl NoiseResponse {
         if near > 0 {
             warnings.push(format!(
                 "the residual vibration of {near} of {} runs is within a factor of 2 of {QUIET}, below which a run counts as quiet \
-                 (in {unsettled} the halves of the record differ, as random records do): raise {}",
-                self.runs.len(),
-                self.longer
+                 (in {unsettled} the halves of the record differ, as random records do): raise --record",
+                self.runs.len()
             ));
         }
         warnings
     }
 
-    /// What belts and systems have in common as JSON.
-    pub(crate) fn put(&self, fields: &mut Fields, sentence: String) {
+    /// The runs as JSON.
+    fn put(&self, fields: &mut Fields, sentence: String) {
         fields.plain("ok", true).plain("sentence", sentence);
         fields.plain("runs", self.runs.len()).number("quiet_below", Quantity::Ratio, QUIET);
         let share = |value: fn(&Share) -> f64| self.quiet().map(|share| value(&share));
@@ -247,7 +238,7 @@ impl NoiseResponse {
     }
 
     /// Stick and mean friction of a contact.
-    pub(crate) fn put_contact(&self, fields: &mut Fields, contact: usize) {
+    fn put_contact(&self, fields: &mut Fields, contact: usize) {
         let stuck = self.column(|run| run.contacts[contact].stick_fraction);
         fields
             .numbers("stick_fraction", Quantity::Ratio, &stuck)
@@ -256,7 +247,7 @@ impl NoiseResponse {
     }
 
     /// Root mean squares of the dither; its peaks have no value.
-    pub(crate) fn put_cost(cost: &Result<NoiseCost, String>, fields: &mut Fields) {
+    fn put_cost(cost: &Result<NoiseCost, String>, fields: &mut Fields) {
         let of = |value: fn(&NoiseCost) -> f64| cost.as_ref().map(value).map_err(Clone::clone);
         let peak = || Err("noise has no largest value; see the root mean square".to_owned());
         fields
@@ -268,20 +259,8 @@ impl NoiseResponse {
             .known("stroke", Quantity::Displacement, peak());
     }
 
-    /// The answer about a belt as JSON: of its one contact and of all its dithers.
-    pub fn json_of_belt(&self, mut fields: Fields, sentence: String) -> Json {
-        self.put(&mut fields, sentence);
-        self.put_contact(&mut fields, 0);
-        let mut inner = Fields::new(fields.scales());
-        if let [cost] = &self.costs[..] {
-            Self::put_cost(cost, &mut inner);
-        }
-        fields.nested("cost", inner);
-        fields.finish()
-    }
-
-    /// The answer about a system as JSON: of every contact and every dither.
-    pub fn json_of_system(&self, empty: impl Fn() -> Fields, sentence: String) -> Json {
+    /// As JSON.
+    pub fn json(&self, empty: impl Fn() -> Fields, sentence: String) -> Json {
         let mut fields = empty();
         self.put(&mut fields, sentence);
         let contacts = self.contacts.iter().enumerate().map(|(contact, name)| {

@@ -1,6 +1,7 @@
 //! `orbit`: the base response under dither, a periodic motion near a state, or the one on which a run ends, with its
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
+use quell_dynamics::motion::orbit::CycleSamples;
 use quell_dynamics::motion::orbit::{
     BASE_STEPS, CycleSearch, MotionOrbit, NamedStart, NoMotionOrbit, SettledMotion, TriedStart,
     base_motion, limit_cycles, motion_near, search_cycle, settled, sliding_verdict, usual_starts,
@@ -14,7 +15,6 @@ use quell_model::parameter::BELT_VELOCITY;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::run::protocol::Protocol;
-use crate::run::system::cycle_samples::CycleSamples;
 use crate::run::system::start::{StateNumbers, start_with};
 use crate::run::system::{failed, has_equations};
 use crate::study::SystemStudy;

@@ -1,6 +1,7 @@
 //! The kinds of study whose numbers can be uncertain, and the judges of one sample.
 
 use quell_design::least_dither::averaged_quiet;
+use quell_dynamics::attractor::end_of_run;
 use quell_linear::averaging::{AveragedVerdict, Averaging, criterion};
 use quell_linear::growth::{Growth, Verdict, of_criterion};
 use quell_model::disc::Disc;
@@ -14,7 +15,7 @@ use crate::fields::Fields;
 use crate::outcome::disc_units::DiscUnits;
 use crate::run::protocol::Protocol;
 use crate::run::stability::FAST;
-use crate::run::system::attractor::{end_of_run, local_verdict};
+use crate::run::system::attractor::local_verdict;
 use crate::run::system::{has_equations, in_units};
 use crate::study::{DiscStudy, ParameterId, SystemStudy, UnitSystem};
 use crate::sweep::{Status, growth_of_disc, growth_of_system, least_quiet};
@@ -187,7 +188,7 @@ impl SampledKind for SystemStudy {
             }
             Err(why) => return Err(said(&why)),
         };
-        let end = end_of_run(system, &self.observe(), &state)?;
+        let end = end_of_run(system, &self.observe(), &state).map_err(|why| why.to_string())?;
         Ok(!end.attractor.quiet)
     }
 

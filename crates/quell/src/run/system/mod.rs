@@ -1,16 +1,13 @@
 //! Runs of a study of a system: one file per verb.
 
 pub mod attractor;
-pub mod cycle_samples;
 pub mod design;
 pub mod exact;
 pub mod measured;
 pub mod modes;
 pub(crate) mod of_runs;
-mod passing;
 pub(crate) mod periods;
 pub mod reach;
-pub mod response;
 pub mod start;
 pub mod tracked;
 pub mod validity;
@@ -59,7 +56,7 @@ pub(crate) fn oscillating(units: UnitSystem, frequency: f64) -> String {
 }
 
 /// A frequency with its unit: in hertz where the study has units.
-fn frequency_in_words(units: UnitSystem, frequency: f64) -> String {
+pub(in crate::run) fn frequency_in_words(units: UnitSystem, frequency: f64) -> String {
     match units {
         UnitSystem::None => format!("the angular frequency {}", digits(frequency)),
         _ => format!("{} Hz", digits(frequency / std::f64::consts::TAU)),

@@ -1,11 +1,11 @@
 //! One period of a periodic motion of a system: samples, exact extremes, and the means of its contacts.
 
-use quell_dynamics::motion::orbit::MotionOrbit;
-use quell_dynamics::motion::{
+use crate::motion::orbit::MotionOrbit;
+use crate::motion::{
     ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionObserver,
     MotionSegment, MotionStart,
 };
-use quell_dynamics::simulation::ORDER;
+use crate::simulation::ORDER;
 use quell_model::System;
 
 /// Number of sampling steps in a period.

@@ -1,6 +1,6 @@
 //! Runs of a system under noise.
 
-use quell_dynamics::response::{SystemResponse, UnditheredResponse};
+use quell_dynamics::response::{SteadyResponse, UnditheredResponse};
 use quell_linear::averaging::DitheredSystem;
 use quell_linear::input_cost::noise_input_cost;
 use quell_linear::linear_cost::NoiseCost;
@@ -11,24 +11,20 @@ use quell_model::{Input, System, Waveform};
 use super::{NoiseResponse, NoisyContact, NoisyRun, number_of_runs};
 use crate::complaint::Failure;
 use crate::parallel::Parallel;
+use crate::run::response::{ResponseRequest, plan_of, refused, undefined};
 use crate::run::system::has_equations;
 use crate::run::system::of_runs::beyond_laws;
-use crate::run::system::response::{ResponseRequest, plan_of, refused, undefined};
 use crate::run::system::start::{start_in_words, start_of};
 use crate::study::SystemStudy;
 
-/// Measures runs of a system with `seeds` different seeds.
+/// Measures runs with different seeds.
 ///
 /// # Errors
-/// A number of seeds that is not allowed; as [`crate::run::system::response::run`].
-pub fn of_system(
-    study: &SystemStudy,
-    seeds: Option<usize>,
-    request: ResponseRequest,
-) -> Result<NoiseResponse, Failure> {
+/// A number of seeds that is not allowed; as [`crate::run::response::run`].
+pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<NoiseResponse, Failure> {
     has_equations(study, "response")?;
     let system = study.system();
-    let count = number_of_runs(seeds, system.has_noise())?;
+    let count = number_of_runs(request.seeds, system.has_noise())?;
     let (start, plan) = (start_of(study)?, plan_of(study, request)?);
     let failed = |why| refused(study, &plan, why);
     let without = UnditheredResponse::new(system, &start, &plan).map_err(failed)?;
@@ -43,8 +39,6 @@ pub fn of_system(
     let undithered = without.record();
     Ok(NoiseResponse {
         start: start_in_words(study, &Vec::new()),
-        clock: "t",
-        longer: "--record",
         settle: plan.settle,
         length: plan.length,
         band_end: without.band_end(),
@@ -59,7 +53,7 @@ pub fn of_system(
 }
 
 /// A run and the largest slip velocity of its contacts.
-fn run_of(system: &System, response: &SystemResponse) -> (NoisyRun, Vec<f64>) {
+fn run_of(system: &System, response: &SteadyResponse) -> (NoisyRun, Vec<f64>) {
     let record = &response.dithered;
     let seed = system.waves().find_map(|wave| wave.waveform.noise()).map_or(0, Noise::seed);
     let contacts = record.contacts.iter().map(|means| NoisyContact {
@@ -73,7 +67,7 @@ fn run_of(system: &System, response: &SystemResponse) -> (NoisyRun, Vec<f64>) {
         settled: response.vibrations.dithered.is_settled(response.vibrations.undithered.whole()),
         contacts: contacts.collect(),
     };
-    let slips = (0..system.contacts.len()).map(|contact| record.whole.largest_slip(contact));
+    let slips = (0..system.contacts.len()).map(|contact: usize| record.largest_slip[contact]);
     (run, slips.collect())
 }
 

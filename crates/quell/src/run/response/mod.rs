@@ -1,23 +1,25 @@
-//! `response` of a system: the steady response of the observed row, the effect of the dither, and the cost of every dither.
+//! `response`: the steady response of the observed row, the effect of the dither, and the cost of every dither.
 
-use quell_dynamics::motion::{ContactMeans, InputCost, SeriesCost};
+mod answer;
+mod band;
+
+use quell_dynamics::motion::InputCost;
 use quell_dynamics::response::{
-    Effect, PEAK_FLOOR, ResponsePlan, ResponseRefused, SystemEnding, SystemRecord, SystemResponse,
-    Uncertain, Undefined, respond_system,
+    Effect, ResponsePlan, ResponseRefused, SettledRecord, SteadyResponse, SystemEnding, Uncertain,
+    Undefined, respond,
 };
 use quell_model::units::Quantity;
-use serde_json::Value as Json;
 
-use super::of_runs::{beyond_laws, failed_run, of_engine, put_means};
-use super::periods::slowest_period;
-use super::start::{start_in_words, start_of};
-use super::{failed, frequency_in_words, has_equations, in_units};
-use crate::complaint::{Complaint, Failure};
-use crate::dataset::{Array, Dataset};
-use crate::fields::Fields;
-use crate::run::effect_words::{EffectWords, level_of, percent, residual_in_words};
-use crate::study::{SystemStudy, UnitSystem};
+use super::effect_words::{EffectWords, percent, residual_in_words};
+use super::system::of_runs::{beyond_laws, failed_run, of_engine};
+use super::system::periods::slowest_period;
+use super::system::start::{duration, start_in_words, start_of};
+use super::system::{failed, frequency_in_words, has_equations, in_units};
+use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::study::SystemStudy;
 use crate::words::listed;
+
+pub use band::InBand;
 
 /// Periods of the slowest oscillation that are discarded before the record.
 pub const SETTLE_PERIODS: f64 = 200.0;
@@ -25,22 +27,62 @@ pub const SETTLE_PERIODS: f64 = 200.0;
 /// Periods of the slowest oscillation in the record.
 pub const RECORD_PERIODS: f64 = 60.0;
 
-/// Times of a response; `None` for [`SETTLE_PERIODS`] and [`RECORD_PERIODS`].
+/// What is asked of `response`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ResponseRequest {
-    /// Time discarded before the record.
+    /// Time discarded before the record; `None` for that of the study, or [`SETTLE_PERIODS`].
     pub settle: Option<f64>,
-    /// Length of the record.
+    /// Length of the record; `None` for that of the study, or [`RECORD_PERIODS`].
     pub record: Option<f64>,
+    /// Number of runs under noise, each with another seed.
+    pub seeds: Option<usize>,
+    /// Two times of a run between which it is measured, instead of a steady response.
+    pub window: Option<(f64, f64)>,
 }
 
-/// A steady response of a system.
+/// The options of `response` as they are given.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ResponseTexts<'t> {
+    /// Time before the record.
+    pub settle: Option<&'t str>,
+    /// Length of the record.
+    pub record: Option<&'t str>,
+    /// The two times of a window.
+    pub window: Option<(&'t str, &'t str)>,
+}
+
+impl ResponseTexts<'_> {
+    /// The request, in the units of the system whose response it is.
+    ///
+    /// # Errors
+    /// A complaint about every option that is wrong.
+    pub fn read(&self, study: &SystemStudy) -> Result<ResponseRequest, Complaints> {
+        let mut wrong: Vec<Complaint> = Vec::new();
+        let mut time = |option, text: Option<&str>| {
+            let read = duration(study, text?, option);
+            read.map_err(|complaint| wrong.push(*complaint)).ok()
+        };
+        let settle = time("--settle", self.settle);
+        let record = time("--record", self.record);
+        let ends = self
+            .window
+            .map(|(from, to)| [time("--window", Some(from)), time("--window", Some(to))]);
+        let window = ends.and_then(|[from, to]| from.zip(to));
+        if wrong.is_empty() {
+            Ok(ResponseRequest { settle, record, window, seeds: None })
+        } else {
+            Err(wrong.into())
+        }
+    }
+}
+
+/// A steady response.
 #[derive(Clone, Debug)]
-pub struct SettledSystem {
+pub struct MeasuredResponse {
     /// How it was measured.
     pub plan: ResponsePlan,
     /// The response.
-    pub response: SystemResponse,
+    pub response: SteadyResponse,
 }
 
 /// How the response of a study is measured.
@@ -51,26 +93,36 @@ pub(crate) fn plan_of(
     study: &SystemStudy,
     request: ResponseRequest,
 ) -> Result<ResponsePlan, Failure> {
-    let period = || slowest_period(study, "--settle");
+    let (period, own) = (|| slowest_period(study, "--settle"), study.record());
+    let time = |given: Option<f64>, periods: f64| {
+        given.map_or_else(|| Ok(periods * period()?), Ok::<_, Failure>)
+    };
     Ok(ResponsePlan {
         row: study.observe(),
-        settle: request.settle.map_or_else(|| Ok(SETTLE_PERIODS * period()?), Ok::<_, Failure>)?,
-        length: request.record.map_or_else(|| Ok(RECORD_PERIODS * period()?), Ok::<_, Failure>)?,
+        settle: time(request.settle.or(own.settle), SETTLE_PERIODS)?,
+        length: time(request.record.or(own.length), RECORD_PERIODS)?,
+        tolerance: study.tolerance(),
     })
 }
 
 /// Why a response could not be measured.
 pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRefused) -> Failure {
-    let record = |allowed: String| Complaint::option("--record", plan.length, allowed).into();
+    let record = |allowed: String| match study.record().length {
+        Some(length) if length == plan.length => {
+            let key = "solver.record_periods";
+            Complaint::new(Fault::Value, key, Origin::Whole, plan.length, allowed).into()
+        }
+        _ => Complaint::option("--record", plan.length, allowed).into(),
+    };
     match why {
         ResponseRefused::Immobile(why) => failed("response", why),
         ResponseRefused::Stopped(stopped) => failed_run("response", study.system(), &stopped),
         ResponseRefused::TooLong { most } => record(format!(
-            "at most {}, a record with all the samples that are kept (by default it is {RECORD_PERIODS} periods of the slowest motion)",
+            "a record of at most {}, with all the samples that are kept (by default it is {RECORD_PERIODS} periods of the slowest motion)",
             in_units(study.units(), Quantity::Time, most)
         )),
         ResponseRefused::TooShort { least } => record(format!(
-            "more than {}, so that the band of slow vibration ends below the dither",
+            "a record of more than {}, of which a line lies in the band of slow vibration",
             in_units(study.units(), Quantity::Time, least)
         )),
     }
@@ -80,12 +132,12 @@ pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRef
 ///
 /// # Errors
 /// A complaint about the start or the times; [`Failure::Failed`] where the motion cannot be computed or the engine stops.
-pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<SettledSystem, Failure> {
+pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<MeasuredResponse, Failure> {
     has_equations(study, "response")?;
     let (start, plan) = (start_of(study)?, plan_of(study, request)?);
-    let response = respond_system(study.system(), &start, &plan);
+    let response = respond(study.system(), &start, &plan);
     let response = response.map_err(|why| refused(study, &plan, why))?;
-    Ok(SettledSystem { plan, response })
+    Ok(MeasuredResponse { plan, response })
 }
 
 /// Relative change of the mean friction that is rounding.
@@ -115,21 +167,21 @@ fn uncertain(why: Uncertain) -> String {
     }
 }
 
-impl SettledSystem {
+impl MeasuredResponse {
     /// Whether a dither acts.
     pub fn has_dither(&self) -> bool {
         self.response.effect != Effect::Unknown(Uncertain::NoDither)
     }
 
     /// Whether the run with dither ends on an orbit, or M of the halves of its record agree.
-    fn settled(&self) -> bool {
+    pub(crate) fn settled(&self) -> bool {
         let vibrations = &self.response.vibrations;
         vibrations.dithered.is_settled(vibrations.undithered.whole())
             && self.response.dithered.ending != SystemEnding::Drift
     }
 
     /// The same without dither.
-    fn undithered_settled(&self) -> bool {
+    pub(crate) fn undithered_settled(&self) -> bool {
         self.response.vibrations.undithered.is_steady()
             && self.response.undithered.ending != SystemEnding::Drift
             || self.response.residual_vibration == Err(Undefined::UnditheredSettles)
@@ -164,7 +216,16 @@ impl SettledSystem {
             }
             .sentence(effect),
         };
-        format!("Started {from}, {what}.{}", self.cost(study))
+        let is_quiet = response.dithered.ending.motion().is_none_or(|found| found.quiet);
+        let left = match response.effect {
+            Effect::Quenches if !is_quiet => {
+                " A slow vibration of that size remains: `thresholds`, `basins` and `bifurcation` classify this \
+                 response as vibrating."
+            }
+            _ => "",
+        };
+        let levels = self.band_in_words(study);
+        format!("Started {from}, {what}.{left}{levels}{}", self.cost(study))
     }
 
     /// The cost of every dither in a sentence of its own.
@@ -221,10 +282,7 @@ impl SettledSystem {
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let response = &self.response;
         let mut warnings = study.warnings().to_vec();
-        let records = [&response.dithered, &response.undithered];
-        let largest = |contact| records.map(|record| record.whole.largest_slip(contact));
-        warnings
-            .extend(beyond_laws(study, |contact| largest(contact).into_iter().fold(0.0, f64::max)));
+        warnings.extend(beyond_laws(study, |contact| response.largest_slip(contact)));
         warnings.extend(of_engine(study.system(), &response.dithered.end));
         let settle = in_units(study.units(), Quantity::Time, self.plan.settle);
         let runs = [
@@ -247,148 +305,25 @@ impl SettledSystem {
                     "the {which}response has not settled after t = {settle}: the amplitudes of the two halves of the record \
                      differ; raise --settle or --record"
                 )),
-                _ => {}
+                _ => warnings.extend(self.longer_than_record(study, which, record)),
             }
         }
         warnings
     }
 
-    /// As JSON.
-    pub fn json(&self, study: &SystemStudy) -> Json {
-        let (units, response) = (study.units(), &self.response);
-        let mut fields = Fields::of_system(units);
-        fields.plain("ok", true).plain("sentence", self.sentence(study));
-        match response.effect {
-            Effect::Unknown(why) => fields.plain("effect", "unknown").why("effect", uncertain(why)),
-            effect => fields.plain("effect", effect.name()),
-        };
-        let residual_vibration = response.residual_vibration.map_err(undefined);
-        let level = residual_vibration.clone().and_then(|ratio| {
-            level_of(ratio).ok_or_else(|| "E is zero, which has no level in decibels".to_owned())
-        });
-        let (with, without) = (&response.dithered, &response.undithered);
-        put_record(&mut fields, "", with);
-        fields.known("residual_vibration", Quantity::Ratio, residual_vibration).known(
-            "level_db",
-            Quantity::Ratio,
-            level,
-        );
-        put_record(&mut fields, "undithered_", without);
-        fields
-            .number("band_end", Quantity::FrequencyRatio, response.band_end)
-            .plain("settled", self.settled())
-            .plain("settled_on", with.ending.name())
-            .plain("undithered_settled", self.undithered_settled())
-            .plain("undithered_settled_on", without.ending.name());
-        for (name, record) in [("period", with), ("undithered_period", without)] {
-            let why = "the run was not found to end on a periodic motion";
-            let period = record.ending.period().ok_or_else(|| why.to_owned());
-            fields.known(name, Quantity::Time, period);
-        }
-        let peaks = with.spectrum.peaks(PEAK_FLOOR).into_iter().map(|peak| {
-            let mut inner = Fields::of_system(units);
-            inner.number("frequency", Quantity::FrequencyRatio, peak.frequency).number(
-                "amplitude",
-                Quantity::Displacement,
-                peak.amplitude,
-            );
-            inner
-        });
-        fields.list("peaks", peaks.collect::<Vec<_>>());
-        fields.list("contacts", self.put_contacts(study));
-        fields.list("dithers", put_inputs(units, with));
-        fields
-            .number("settle", Quantity::Time, self.plan.settle)
-            .number("record_length", Quantity::Time, self.plan.length)
-            .plain("near_tangential_releases", with.end.near_tangential_releases)
-            .plain("warnings", self.warnings(study));
-        fields.finish()
+    /// A warning about a motion that takes longer than its record.
+    fn longer_than_record(
+        &self,
+        study: &SystemStudy,
+        which: &str,
+        record: &SettledRecord,
+    ) -> Option<String> {
+        let period = record.ending.period().filter(|period| *period > self.plan.length)?;
+        let [period, length] =
+            [period, self.plan.length].map(|time| in_units(study.units(), Quantity::Time, time));
+        Some(format!(
+            "the {which}motion repeats after {period}, but its record lasts {length}: the amplitude of slow vibration and E are those of a \
+             part of it; raise --record"
+        ))
     }
-
-    fn put_contacts(&self, study: &SystemStudy) -> Vec<Fields> {
-        let contacts = study.system().contacts.iter().enumerate().map(|(index, contact)| {
-            let mut inner = Fields::of_system(study.units());
-            inner.plain("name", contact.name.clone());
-            let means: ContactMeans = self.response.dithered.contacts[index];
-            put_means(&mut inner, Ok(means));
-            inner
-                .number(
-                    "mean_friction_undithered",
-                    Quantity::Force,
-                    self.response.undithered.contacts[index].friction,
-                )
-                .known("steady_sliding_friction", Quantity::Force, self.steady_friction(index))
-                .known("friction_loss", Quantity::Ratio, self.friction_loss(index));
-            inner
-        });
-        contacts.collect()
-    }
-
-    /// The record of both runs.
-    pub fn record(&self, study: &SystemStudy) -> Dataset {
-        let (with, without) = (&self.response.dithered, &self.response.undithered);
-        let unit = |quantity| study.units().unit(quantity).unwrap_or("1");
-        let times = (0..with.row.samples.len())
-            .map(|number| f64::mul_add(number as f64, with.step, self.plan.settle));
-        let length = unit(Quantity::Displacement);
-        Dataset::of(&study.into(), "response: record of the observed displacement")
-            .fact(format!("start: {}", start_in_words(study, &Vec::new())))
-            .with_axis(Array::new("time", unit(Quantity::Time), times.collect()))
-            .with(Array::new("observed", length, with.row.samples.clone()))
-            .with(Array::new("undithered_observed", length, without.row.samples.clone()))
-    }
-
-    /// The spectra of both records.
-    pub fn spectrum(&self, study: &SystemStudy) -> Dataset {
-        let (with, without) =
-            (&self.response.dithered.spectrum, &self.response.undithered.spectrum);
-        let unit = |quantity| study.units().unit(quantity).unwrap_or("1");
-        let (rate, length) = (unit(Quantity::FrequencyRatio), unit(Quantity::Displacement));
-        Dataset::of(&study.into(), "response: spectrum of the observed displacement")
-            .fact("mean removed, Hann window, zero-padded to four times the record length; amplitudes are those of a pure tone")
-            .with_axis(Array::new("frequency", rate, with.frequencies().collect()))
-            .with(Array::new("amplitude", length, with.amplitudes().to_vec()))
-            .with(Array::new("undithered_amplitude", length, without.amplitudes().to_vec()))
-    }
-}
-
-/// Adds the measures of a record under names with a prefix.
-fn put_record(fields: &mut Fields, prefix: &str, record: &SystemRecord) {
-    let lengths = [
-        ("amplitude", record.lines.whole),
-        ("half_peak_to_peak", 0.5 * record.observed.range()),
-        ("rms", record.observed.deviation()),
-        ("mean", record.observed.mean()),
-    ];
-    for (name, value) in lengths {
-        fields.number(&format!("{prefix}{name}"), Quantity::Displacement, value);
-    }
-}
-
-/// The cost of every dither.
-fn put_inputs(units: UnitSystem, record: &SystemRecord) -> Vec<Fields> {
-    let inputs = record.inputs.iter().map(|cost| {
-        let mut inner = Fields::of_system(units);
-        let of = |pick: fn(&InputCost) -> f64| {
-            cost.as_ref().map(pick).map_err(|why| why.why().to_owned())
-        };
-        inner.known("power", Quantity::Power, of(|cost| cost.power)).known(
-            "stroke",
-            Quantity::Displacement,
-            of(|cost| cost.stroke),
-        );
-        let in_series = |pick: fn(&SeriesCost) -> f64| {
-            let cost = cost.as_ref().map_err(|why| why.why().to_owned())?;
-            let force = "a force on coordinates has no spring of a contact to act through";
-            let series = cost.in_series.as_ref().ok_or_else(|| force.to_owned())?;
-            series.as_ref().map(pick).map_err(ToString::to_string)
-        };
-        inner.known("actuator_power", Quantity::Power, in_series(|cost| cost.power)).known(
-            "actuator_stroke",
-            Quantity::Displacement,
-            in_series(|cost| cost.stroke),
-        );
-        inner
-    });
-    inputs.collect()
 }

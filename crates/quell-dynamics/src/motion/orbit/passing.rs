@@ -1,8 +1,6 @@
 //! How near a periodic motion passes to a state.
 
-use quell_dynamics::motion::{
-    MOTION_TOLERANCE, Motion, MotionObserver, MotionSegment, MotionStart,
-};
+use crate::motion::{MOTION_TOLERANCE, Motion, MotionObserver, MotionSegment, MotionStart};
 use quell_model::System;
 use quell_numerics::roots::{Closeness, minimise};
 
@@ -11,11 +9,7 @@ use quell_numerics::roots::{Closeness, minimise};
 const PLACES: usize = 8;
 
 /// The least distance between a state and the run from another one over a time, over the largest number of the state.
-pub(super) fn nearest_distance(
-    system: &System,
-    (from, duration): (&[f64], f64),
-    target: &[f64],
-) -> f64 {
+pub fn nearest_distance(system: &System, (from, duration): (&[f64], f64), target: &[f64]) -> f64 {
     let mut nearest = Nearest { target, least: f64::INFINITY };
     let start = MotionStart { time: 0.0, state: from.to_vec() };
     if let Ok(motion) = Motion::new(system) {
