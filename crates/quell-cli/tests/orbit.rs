@@ -241,12 +241,11 @@ fn a_lost_branch_does_not_discard_other_results() {
     let changes = found["from_rest"].as_array().expect("changes");
     let becomes: Vec<_> = changes.iter().filter_map(|item| item["becomes"].as_str()).collect();
     assert_eq!((becomes, found["warnings"].as_array().map(Vec::len)), (vec!["quenched"], Some(0)));
-    for (amplitude, ends) in
-        [("1.05", "base response"), ("1.13807", "another response without slow motion of its own")]
-    {
+    for (amplitude, ends, is_base) in [("1.05", "period-1", true), ("1.13807", "locked", false)] {
         let set = format!("dither.amplitude={amplitude}");
         let (found, _) = quell(&["response", OWN, "--set", &set]);
         assert_eq!((&found["effect"], &found["ends_on"]), (&"quenches".into(), &ends.into()));
+        assert_eq!((&found["base_response"], &found["quiet"]), (&is_base.into(), &true.into()));
     }
 }
 

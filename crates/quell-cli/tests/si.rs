@@ -115,7 +115,8 @@ fn quenched_means_the_same_in_every_verb() {
     place.write("drive.toml", DRIVE);
     let response = place.good(&["response", "drive.toml"]);
     assert_eq!(response["effect"], "quenches");
-    assert_eq!(response["ends_on"], "another response without slow motion of its own");
+    assert_eq!(response["ends_on"], "period-1");
+    assert_eq!((&response["base_response"], &response["quiet"]), (&false.into(), &true.into()));
     let range = ["--parameter", "dither.amplitude_n", "--from", "35", "--to", "50"];
     let found = place.good(&[&["thresholds", "drive.toml", "--from-rest"][..], &range].concat());
     let changes = found["from_rest"].as_array().expect("changes");

@@ -125,7 +125,7 @@ fn the_stroke_of_every_waveform_is_that_of_its_period() {
     let series = FourierWave::new(vec![harmonic(1, 0.0), harmonic(3, 8.0)]).expect("harmonics");
     let series = Waveform::Fourier(series.into());
     for (waveform, frequency_ratio, share) in
-        [(burst, 40.0, 1e-3), (samples, 2.7, 1e-3), (series, 9.0, 1e-3)]
+        [(burst, 40.0, 2e-3), (samples, 2.7, 2e-3), (series, 9.0, 2e-3)]
     {
         let dither = tangential(waveform, 0.05, frequency_ratio);
         let belt = belt::stribeck().at_speed(0.2).with_dither(dither.clone());

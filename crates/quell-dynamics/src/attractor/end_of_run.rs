@@ -156,6 +156,9 @@ fn ends_of_one_mass(
 }
 
 /// An attractor of one mass, with dither or without, as that of its system; `tried`: the periods over which it was followed.
+///
+/// # Errors
+/// [`NoEnd`].
 pub fn measured_of_one_mass(
     (system, mass): (&System, &OneMass),
     row: &[f64],

@@ -405,7 +405,7 @@ fn record(
     let mut transient = RowMeter::new(&plan.row, start.time, grid.step, 0);
     let settled = start.time + plan.settle;
     let end = motion.run(start, settled, tolerance, &mut (&mut slip, &mut transient))?;
-    let ending = SystemEnding::of(system, plan, start, &end);
+    let ending = SystemEnding::of(system, &plan.row, start, &end);
     let from = ending.record_from(motion, tolerance, &end)?;
     let times: Vec<f64> =
         (0..grid.count).map(|number| f64::mul_add(number as f64, grid.step, from.time)).collect();

@@ -8,7 +8,6 @@ use quell_linear::pure_slip::period;
 use quell_linear::spectrum::spectrum;
 use quell_model::System;
 
-use super::steady_response::ResponsePlan;
 use crate::attractor::{MotionKind, NoEnd, SystemAttractor, end_of_run};
 use crate::motion::orbit::is_on_sliding;
 use crate::motion::{Motion, MotionEnd, MotionStart, MotionStopped};
@@ -35,7 +34,7 @@ impl SystemEnding {
     /// The ending of a run from a start, which has settled until `end`.
     pub(super) fn of(
         system: &System,
-        plan: &ResponsePlan,
+        row: &[f64],
         start: &MotionStart,
         end: &MotionEnd,
     ) -> Self {
@@ -47,7 +46,7 @@ impl SystemEnding {
         if !system.is_dithered() && is_unstable_sliding(system, &end.state) {
             return Self::UnstableSliding;
         }
-        let found = match end_of_run(system, &plan.row, &start.state) {
+        let found = match end_of_run(system, row, &start.state) {
             Ok(end) => end.attractor,
             Err(why) => return Self::Record(Some(why)),
         };

@@ -26,7 +26,7 @@ pub struct Segment<'a> {
     pub(super) slip: &'a [f64],
 }
 
-impl<'a> Segment<'a> {
+impl Segment<'_> {
     /// Its start, τ.
     #[inline(always)]
     pub fn clock(&self) -> Clock {

@@ -5,8 +5,8 @@ mod band;
 
 use quell_dynamics::motion::InputCost;
 use quell_dynamics::response::{
-    Effect, ResponsePlan, ResponseRefused, SettledRecord, SteadyResponse, SystemEnding, Uncertain,
-    Undefined, respond,
+    Effect, ResponsePlan, ResponseRefused, SteadyResponse, SystemEnding, Uncertain, Undefined,
+    respond,
 };
 use quell_model::units::Quantity;
 
@@ -305,25 +305,22 @@ impl MeasuredResponse {
                     "the {which}response has not settled after t = {settle}: the amplitudes of the two halves of the record \
                      differ; raise --settle or --record"
                 )),
-                _ => warnings.extend(self.longer_than_record(study, which, record)),
+                _ => {}
             }
         }
+        warnings.extend(self.longer_than_record(study));
         warnings
     }
 
-    /// A warning about a motion that takes longer than its record.
-    fn longer_than_record(
-        &self,
-        study: &SystemStudy,
-        which: &str,
-        record: &SettledRecord,
-    ) -> Option<String> {
-        let period = record.ending.period().filter(|period| *period > self.plan.length)?;
+    /// A warning about a free vibration that takes longer than its record, such as one with long sticks on a slow surface.
+    fn longer_than_record(&self, study: &SystemStudy) -> Option<String> {
+        let ending = &self.response.undithered.ending;
+        let period = ending.period().filter(|period| *period > self.plan.length)?;
         let [period, length] =
             [period, self.plan.length].map(|time| in_units(study.units(), Quantity::Time, time));
         Some(format!(
-            "the {which}motion repeats after {period}, but its record lasts {length}: the amplitude of slow vibration and E are those of a \
-             part of it; raise --record"
+            "the vibration without dither repeats after {period}, but its record lasts {length}: M₀ and E are those of a part of it; \
+             raise --record"
         ))
     }
 }
