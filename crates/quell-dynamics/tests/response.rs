@@ -70,7 +70,7 @@ fn residual_vibration_is_undefined_where_the_undithered_belt_settles() {
     let fast = belt::decreasing().with_dither(sine(4.0, 10.0));
     assert_eq!(response(&fast).residual_vibration, Err(Undefined::UnditheredSettles));
     let stopped = belt::decreasing().at_speed(0.0);
-    assert_eq!(response(&stopped).residual_vibration, Err(Undefined::UnditheredSettles));
+    assert_eq!(response(&stopped).residual_vibration, Err(Undefined::UnditheredAtRest));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use quell_dynamics::response::{Observables, ResponseCase, Solver, compare_many};
+use quell_dynamics::response::{ResponseCase, Solver, compare_many};
 use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, Event, EventKind, EventRecorder, FinalState, Observer, Sampler, Start,
     VelocitySection, simulate,
@@ -168,7 +168,7 @@ fn an_unfinished_decay_is_reported() {
     let belt = decreasing_under(Waveform::Sine, 2.84);
     let short = Solver { settle: 200.0, ..Solver::default() };
     let case = ResponseCase { belt: belt.clone(), start: Start::REST };
-    let found = compare_many(&[case], &short, Observables::default());
+    let found = compare_many(&[case], &short);
     assert!(!found[0].expect("no stall").settled());
     let quenched = response_of(&belt, Start::REST, &short);
     assert!(quenched.dithered.lines.whole < 1e-6, "{}", quenched.dithered.lines.whole);

@@ -341,8 +341,10 @@ fn observed(
     let is_orbit = matches!(kind, AttractorKind::Periodic { .. });
     let samples =
         if is_orbit { samples_per_orbit_period(period) } else { samples_per_period(period) };
-    let mut observers =
-        (BlockObserver::with_samples(period, periods, samples), DisplacementExtremes::NONE);
+    let mut observers = (
+        BlockObserver::with_samples(period, periods, samples),
+        DisplacementExtremes { lowest: f64::INFINITY, highest: f64::NEG_INFINITY },
+    );
     simulate(settings.belt, state, length, DEFAULT_TOLERANCE, &mut observers)?;
     let (observer, extremes) = observers;
     let stick_fraction = observer.stuck / length;
@@ -380,15 +382,9 @@ fn observed(
 }
 
 /// Least and largest x of a run, including those inside steps, where x′ changes sign.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct DisplacementExtremes {
-    pub(crate) lowest: f64,
-    pub(crate) highest: f64,
-}
-
-impl DisplacementExtremes {
-    /// Of no run yet.
-    pub(crate) const NONE: Self = Self { lowest: f64::INFINITY, highest: f64::NEG_INFINITY };
+struct DisplacementExtremes {
+    lowest: f64,
+    highest: f64,
 }
 
 /// Closeness of the moment at which x′ = 0: the error of x is of the order of its square, below rounding. Looser, a small

@@ -45,7 +45,6 @@ pub use basin::{Basin, BasinLabel, BasinsOfAttraction, gather};
 pub use end_of_run::{
     EndOfRun, NoEnd, end_of_run, ends_of_runs, judged_mass, measured_of_one_mass, starts_of_mass,
 };
-pub(crate) use measure::DisplacementExtremes;
 pub use measure::{Attractor, AttractorKind, measure, orbit_reached};
 pub(crate) use reached::reached_at;
 pub use reached::{Reached, reached};

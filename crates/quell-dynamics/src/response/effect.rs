@@ -161,8 +161,7 @@ pub struct Vibrations {
     pub undithered: RecordLines,
     /// Whether the undithered run settles without vibration.
     pub quiet_without: bool,
-    /// Whether the dithered run is known to settle without slow vibration, or its vibration decays, so that a small one in its
-    /// record does not grow.
+    /// Whether the dithered run is known to settle without slow vibration, so that a small one in its record does not grow.
     pub quiet_with: bool,
 }
 
@@ -174,9 +173,9 @@ impl Vibrations {
         let negligible = if quiet_without { dithered.is_negligible() } else { ratio < QUENCHED };
         let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
         if negligible {
-            // A vibration too small to be visible may still grow, unless the record is steady or the run is known to settle
+            // A vibration too small to be visible may still grow, unless the record is steady or decays, or the run is known to settle
             // without one.
-            let decided = dithered.is_steady() || quiet_with;
+            let decided = dithered.is_steady() || dithered.decays() || quiet_with;
             return if decided { nothing } else { Effect::Unknown(Uncertain::StillChanging) };
         }
         if !dithered.is_settled(undithered.whole()) && !dithered.is_steady() {

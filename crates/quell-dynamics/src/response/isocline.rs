@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 use quell_model::Belt;
 
-use super::measure::{Observables, ResponseCase, compare_many};
+use super::measure::{ResponseCase, compare_many};
 use super::solver::Solver;
 use crate::simulation::Start;
 
@@ -37,11 +37,10 @@ pub fn amplitude_at_residual_vibration(
                 Some(ResponseCase { belt, start })
             })
             .collect();
-        let residual_vibrations: Option<Vec<f64>> =
-            compare_many(&cases?, solver, Observables::default())
-                .into_iter()
-                .map(|compared| compared.ok()?.residual_vibration().ok())
-                .collect();
+        let residual_vibrations: Option<Vec<f64>> = compare_many(&cases?, solver)
+            .into_iter()
+            .map(|compared| compared.ok()?.residual_vibration().ok())
+            .collect();
         let residual_vibrations = residual_vibrations?;
         let last =
             residual_vibrations.windows(2).rposition(|pair| pair[0] > level && pair[1] <= level)?;

@@ -3,20 +3,18 @@
 
 use std::fmt;
 
-use quell_model::{Belt, Direction};
+use quell_model::Belt;
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::spectrum::low_band::LargestLines;
 
-use super::cost::{self, Meter};
 use super::record_lines::RecordLines;
 use super::solver::Solver;
 use super::spectral_meter::{Sampling, SpectralMeter};
-use crate::attractor::DisplacementExtremes;
 use crate::orbit::cycle::{keeps_vibrating, sliding_verdict};
 use crate::orbit::{NoOrbit, OrbitVerdict};
 use crate::simulation::{
-    Event, FinalState, InstructionSet, LargestSlip, Observer, Segment, SimulationRun, Stalled,
-    Start, simulate_many_with,
+    FinalState, InstructionSet, LargestSlip, Observer, Segment, SimulationRun, Stalled, Start,
+    simulate_many_with,
 };
 
 /// Why E is undefined.
@@ -79,13 +77,6 @@ pub struct ResponseCase {
     pub start: Start,
 }
 
-/// The observables to be measured in addition to those without cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Observables {
-    /// Power and stroke of the dither.
-    pub dither_cost: bool,
-}
-
 /// The measurements on the settled record of one run. Lengths in the study's length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredRecord {
@@ -93,15 +84,6 @@ pub struct MeasuredRecord {
     pub lines: LargestLines,
     /// Fraction of the record spent in stick.
     pub stick_fraction: f64,
-    /// Mean friction force ⟨f⟩ over k.
-    pub mean_friction: f64,
-    /// Mean power ⟨D_T g_T x′⟩ over kω₀; `None` if not requested, or if all dither is normal.
-    pub dither_power: Option<f64>,
-    /// Peak-to-peak displacement, by which the point moves on which a tangential dither acts; `None` under the same conditions as the
-    /// power.
-    pub dither_stroke: Option<f64>,
-    /// Smallest normal load.
-    pub minimum_normal_load: f64,
     /// Largest slip speed |v_r| in the record.
     pub largest_slip: f64,
     /// Stick, release and reversal events in the record.
@@ -160,11 +142,7 @@ impl Compared {
 /// Measures the settled response of every case with and without its dither, the cases side by
 /// side in lanes. Cases that differ only in their dither share one undithered run. The bits of a
 /// result do not depend on the other cases.
-pub fn compare_many(
-    cases: &[ResponseCase],
-    solver: &Solver,
-    observables: Observables,
-) -> Vec<Result<Compared, Stalled>> {
+pub fn compare_many(cases: &[ResponseCase], solver: &Solver) -> Vec<Result<Compared, Stalled>> {
     let mut without: Vec<ResponseCase> = Vec::new();
     let mut indices = Vec::with_capacity(cases.len());
     for case in cases {
@@ -176,9 +154,9 @@ pub fn compare_many(
             without.len() - 1
         }));
     }
-    let undithered = measure_many(&without, solver, Observables::default());
+    let undithered = measure_many(&without, solver);
     let vibrates: Vec<_> = without.iter().map(keeps_vibrating_without).collect();
-    let dithered = measure_many(cases, solver, observables);
+    let dithered = measure_many(cases, solver);
     dithered
         .into_iter()
         .zip(indices)
@@ -212,24 +190,7 @@ pub(super) fn keeps_vibrating_without(
 }
 
 /// Measures the settled record of every case.
-pub fn measure_many(
-    cases: &[ResponseCase],
-    solver: &Solver,
-    observables: Observables,
-) -> Vec<Result<MeasuredRecord, Stalled>> {
-    record_many(cases, solver, observables, |_, _| ())
-        .into_iter()
-        .map(|outcome| outcome.map(|(measured, ())| measured))
-        .collect()
-}
-
-/// [`measure_many`] with an additional observer on each record.
-pub(super) fn record_many<O: Observer>(
-    cases: &[ResponseCase],
-    solver: &Solver,
-    observables: Observables,
-    observer: impl Fn(&ResponseCase, &Sampling) -> O,
-) -> Vec<Result<(MeasuredRecord, O), Stalled>> {
+fn measure_many(cases: &[ResponseCase], solver: &Solver) -> Vec<Result<MeasuredRecord, Stalled>> {
     let set = if cases.len() == 1 { InstructionSet::Fma } else { InstructionSet::widest() };
     let mut no_observers = vec![(); cases.len()];
     let runs = cases
@@ -243,12 +204,10 @@ pub(super) fn record_many<O: Observer>(
         })
         .collect();
     let settled = simulate_many_with(set, runs, solver.tolerance);
-    let mut observers: Vec<Result<RecordObserver<O>, Stalled>> = cases
+    let mut observers: Vec<Result<RecordObserver, Stalled>> = cases
         .iter()
         .zip(settled)
-        .map(|(case, settled)| {
-            Ok(RecordObserver::new(case, settled?, solver, observables, &observer))
-        })
+        .map(|(case, settled)| Ok(RecordObserver::new(case, settled?, solver)))
         .collect();
     let runs = cases
         .iter()
@@ -266,76 +225,46 @@ pub(super) fn record_many<O: Observer>(
         .map(|(case, observer)| {
             let observer = observer?;
             let end = ends.next().unwrap_or(Err(Stalled::NEVER_STARTED))?;
-            Ok(observer.measured(case, observables, &end))
+            Ok(observer.measured(&case.belt, &end))
         })
         .collect()
 }
 
 /// The observer of a record.
-struct RecordObserver<O> {
+struct RecordObserver {
     settled: FinalState,
     sampling: Sampling,
-    meter: Meter,
     spectral: SpectralMeter,
-    extremes: Option<DisplacementExtremes>,
     slip: LargestSlip,
-    observer: O,
+    stuck: f64,
 }
 
-impl<O> RecordObserver<O> {
-    fn new(
-        case: &ResponseCase,
-        settled: FinalState,
-        solver: &Solver,
-        observables: Observables,
-        observer: impl Fn(&ResponseCase, &Sampling) -> O,
-    ) -> Self {
+impl RecordObserver {
+    fn new(case: &ResponseCase, settled: FinalState, solver: &Solver) -> Self {
         let sampling = Sampling::of(&case.belt, case.start.time + solver.settle, solver);
         Self {
             settled,
             sampling,
-            meter: Meter::new(&case.belt, &settled, observables.dither_cost),
             spectral: SpectralMeter::new(&case.belt, sampling),
-            extremes: observables.dither_cost.then_some(DisplacementExtremes::NONE),
             slip: LargestSlip::of(&case.belt),
-            observer: observer(case, &sampling),
+            stuck: 0.0,
         }
     }
 
-    fn measured(
-        mut self,
-        case: &ResponseCase,
-        observables: Observables,
-        end: &FinalState,
-    ) -> (MeasuredRecord, O) {
-        let belt = &case.belt;
-        self.meter.finish(belt, &self.settled, end);
+    fn measured(mut self, belt: &Belt, end: &FinalState) -> MeasuredRecord {
         self.spectral.finish(end.displacement);
-        let only_normal = belt.total_amplitude(Direction::Tangential) == 0.0
-            && belt.total_amplitude(Direction::Normal) > 0.0;
-        let has_cost = observables.dither_cost && !only_normal;
-        let length = self.sampling.end() - self.sampling.from;
-        let measured = MeasuredRecord {
+        MeasuredRecord {
             lines: self.spectral.largest_lines(),
-            stick_fraction: self.meter.stick_fraction(),
-            mean_friction: self.meter.mean_friction(),
-            dither_power: has_cost.then(|| self.meter.dither_power()),
-            dither_stroke: self
-                .extremes
-                .filter(|_| has_cost)
-                .map(|extremes| extremes.highest - extremes.lowest),
-            minimum_normal_load: cost::minimum_normal_load(belt, self.sampling.from, length),
+            stick_fraction: self.stuck / (self.sampling.end() - self.sampling.from),
             largest_slip: self.slip.speed,
             events: end.events,
             load: belt.normal_load(),
-        };
-        (measured, self.observer)
+        }
     }
 }
 
 /// The measurements of one segment, on the machine's best instruction set.
 struct SegmentMeasurement<'a, 'b> {
-    meter: &'a mut Meter,
     spectral: &'a mut SpectralMeter,
     segment: &'a Segment<'b>,
 }
@@ -345,25 +274,16 @@ impl Work for SegmentMeasurement<'_, '_> {
 
     #[inline(always)]
     fn run(self) {
-        self.meter.add_segment(self.segment);
         self.spectral.add_segment(self.segment);
     }
 }
 
-impl<O: Observer> Observer for RecordObserver<O> {
+impl Observer for RecordObserver {
     fn segment(&mut self, segment: &Segment<'_>) {
-        let Self { meter, spectral, .. } = self;
-        with_fused_multiply_add(SegmentMeasurement { meter, spectral, segment });
+        if segment.slip_sign() == 0 {
+            self.stuck += segment.duration();
+        }
+        with_fused_multiply_add(SegmentMeasurement { spectral: &mut self.spectral, segment });
         self.slip.segment(segment);
-        if let Some(extremes) = &mut self.extremes {
-            extremes.segment(segment);
-        }
-        if self.observer.watches() {
-            self.observer.segment(segment);
-        }
-    }
-
-    fn event(&mut self, event: &Event) {
-        self.observer.event(event);
     }
 }

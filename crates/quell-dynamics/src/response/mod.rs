@@ -3,13 +3,15 @@
 //! [`respond`] measures any system; [`compare_many`] many belts at once for maps, while they are integrated, with records of the run itself.
 //! Both measure M in the same band and decide the effect of a dither by [`Vibrations`].
 
-mod cost;
 mod effect;
 mod effective;
 mod isocline;
 mod measure;
+mod record_grid;
 mod record_lines;
 mod record_tones;
+mod refused;
+mod settled_record;
 mod solver;
 mod spectral_meter;
 mod steady_response;
@@ -26,14 +28,10 @@ pub use effective::{
     SteadyFriction, WindowMean, measured_effective_friction, steady_effective_friction,
 };
 pub use isocline::amplitude_at_residual_vibration;
-pub use measure::{
-    Compared, MeasuredRecord, Observables, ResponseCase, Undefined, compare_many, measure_many,
-};
+pub use measure::{Compared, MeasuredRecord, ResponseCase, Undefined, compare_many};
 pub use record_lines::{HALVES_AGREE, HALVES_NEGLIGIBLE, RecordLines};
+pub use refused::ResponseRefused;
+pub use settled_record::SettledRecord;
 pub use solver::Solver;
-pub use spectral_meter::samples_per_slow_period;
-pub use steady_response::{
-    PEAK_FLOOR, ResponsePlan, ResponseRefused, SettledRecord, SteadyResponse, UnditheredResponse,
-    respond,
-};
+pub use steady_response::{PEAK_FLOOR, ResponsePlan, SteadyResponse, UnditheredResponse, respond};
 pub use system_ending::SystemEnding;

@@ -18,7 +18,7 @@ const SAMPLES_PER_SLOW_PERIOD: f64 = 128.0;
 
 /// Cells per slow period in which the low band is sampled: the band ends below a quarter of
 /// their Nyquist frequency, 4.
-const CELLS_PER_SLOW_PERIOD: usize = 8;
+pub(super) const CELLS_PER_SLOW_PERIOD: usize = 8;
 
 /// Number of samples whose displacements are evaluated at once.
 const ABREAST: usize = 4;
@@ -37,7 +37,7 @@ pub(super) struct Sampling {
 }
 
 /// Number of samples of the displacement of a belt per 2π, a whole number.
-pub fn samples_per_slow_period(belt: &Belt) -> f64 {
+pub(super) fn samples_per_slow_period(belt: &Belt) -> f64 {
     let fastest = belt
         .dithers()
         .iter()
@@ -86,7 +86,10 @@ impl SpectralMeter {
         Self {
             sampling,
             band: LowBand::new(sampling.count, sampling.step, decimation),
-            band_end: band_end(belt, sampling),
+            band_end: band_end_of_mass(
+                belt,
+                4.0 * sampling.per_slow_period as f64 / sampling.count as f64,
+            ),
         }
     }
 
@@ -128,11 +131,10 @@ impl SpectralMeter {
     }
 }
 
-/// The upper end of the band of slow vibration, reduced where the window would spread the line of a dither just above it into the
-/// band: by two lines of the unpadded half of a record. A record too short to separate both keeps the whole band, including
+/// The upper end of the band of slow vibration, in ω₀, reduced where the window would spread the line of a dither just above it into the
+/// band: by `reach`, two lines of the unpadded half of a record. A record too short to separate both keeps the whole band, including
 /// that line.
-fn band_end(belt: &Belt, sampling: Sampling) -> f64 {
-    let reach = 4.0 * sampling.per_slow_period as f64 / sampling.count as f64;
+pub(super) fn band_end_of_mass(belt: &Belt, reach: f64) -> f64 {
     let above = belt
         .dithers()
         .iter()

@@ -32,12 +32,7 @@ pub enum SystemEnding {
 
 impl SystemEnding {
     /// The ending of a run from a start, which has settled until `end`.
-    pub(super) fn of(
-        system: &System,
-        row: &[f64],
-        start: &MotionStart,
-        end: &MotionEnd,
-    ) -> Self {
+    pub(super) fn of(system: &System, row: &[f64], start: &MotionStart, end: &MotionEnd) -> Self {
         // Noise has no period, and the phase of the dither of a motion that is found is that at t = 0.
         if system.has_noise() || system.is_dithered() && start.time != 0.0 {
             return Self::Record(None);
@@ -170,7 +165,7 @@ pub(super) fn cannot_settle(system: &System) -> bool {
 
 /// Whether samples move on by more than they vibrate: the line that fits them best changes by more than their peak-to-peak distance
 /// from it. A record shorter than half a period of a vibration drifts too: it shows no vibration.
-fn drifts(samples: &[f64]) -> bool {
+pub(super) fn drifts(samples: &[f64]) -> bool {
     let count = samples.len() as f64;
     let middle = 0.5 * (count - 1.0);
     let mean = samples.iter().sum::<f64>() / count;

@@ -7,7 +7,7 @@ use quell_numerics::polynomial::first_crossing_after;
 use super::clock::Clock;
 use super::event::Event;
 use super::state::FinalState;
-use super::taylor::{ORDER, RECIPROCALS};
+use super::taylor::ORDER;
 use crate::sample_times::SampleTimes;
 
 /// One smooth piece of a trajectory: a Taylor step of slip, or an interval of stick.
@@ -123,16 +123,6 @@ impl Segment<'_> {
             *value *= self.unit;
         }
         values
-    }
-
-    /// ∫x dτ over the whole segment, for the same observers as [`Segment::displacements_at`].
-    #[inline(always)]
-    pub(crate) fn displacement_integral(&self) -> f64 {
-        let mut sum = 0.0;
-        for (&coefficient, inverse) in self.displacement.iter().zip(&RECIPROCALS[1..]).rev() {
-            sum = f64::mul_add(sum, self.duration, coefficient * inverse);
-        }
-        self.unit * sum * self.duration
     }
 }
 

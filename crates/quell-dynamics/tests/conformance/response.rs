@@ -1,9 +1,7 @@
 //! The steady response: against its orbit, its energy balance, and many at once.
 
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
-use quell_dynamics::response::{
-    Observables, ResponseCase, ResponsePlan, Solver, compare_many, respond,
-};
+use quell_dynamics::response::{ResponseCase, ResponsePlan, Solver, compare_many, respond};
 use quell_dynamics::simulation::{Start, simulate};
 use quell_zoo::all_belts;
 
@@ -17,10 +15,9 @@ fn many_responses_have_the_bits_of_one_alone() {
         .iter()
         .map(|named| ResponseCase { belt: named.model.clone(), start: Start::REST })
         .collect();
-    let observables = Observables { dither_cost: true };
-    let together = compare_many(&cases, &SOLVER, observables);
+    let together = compare_many(&cases, &SOLVER);
     for ((named, case), compared) in belts.iter().zip(&cases).zip(together) {
-        let alone = compare_many(std::slice::from_ref(case), &SOLVER, observables);
+        let alone = compare_many(std::slice::from_ref(case), &SOLVER);
         assert_eq!(alone, [compared], "{}", named.name);
     }
 }

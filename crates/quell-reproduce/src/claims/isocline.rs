@@ -6,7 +6,7 @@
 
 use quell::parallel::Parallel;
 use quell_dynamics::response::{
-    Observables, ResponseCase, SUPPRESSED, Solver, amplitude_at_residual_vibration, compare_many,
+    ResponseCase, SUPPRESSED, Solver, amplitude_at_residual_vibration, compare_many,
 };
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Averaging, Becomes};
@@ -243,7 +243,7 @@ fn residuals_at(contours: &ContourFigure, points: &[[f64; 2]]) -> Result<Vec<f64
             Ok(ResponseCase { belt, start: Start::REST })
         })
         .collect::<Result<Vec<ResponseCase>, Failure>>()?;
-    compare_many(&cases, &solver, Observables::default())
+    compare_many(&cases, &solver)
         .into_iter()
         .map(|compared| {
             let compared = compared.map_err(|error| failed("claims", &error))?;

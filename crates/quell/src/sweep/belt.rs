@@ -8,7 +8,7 @@ use quell_linear::growth::of_criterion as growth_rate;
 use quell_model::units;
 
 use super::cost;
-use super::evaluate::{Computation, ResponseNumbers, Results, evaluate};
+use super::evaluate::{Computation, ResponseMeans, ResponseNumbers, Results, evaluate};
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults, PointScales};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
@@ -163,23 +163,23 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     belt("undithered-amplitude", "spectral amplitude M₀ of the run without dither", Computation::Response, &[
         variable(("undithered_amplitude", "M_0"), "spectral amplitude without dither", LENGTH, OF_RESPONSE, |r| Ok(steady(r)?.undithered_amplitude)),
     ]),
-    belt("stick-fraction", "fraction of the time spent sticking", Computation::Response, &[
-        variable(("stick_fraction", ""), "fraction of the time spent sticking", RATIO, OF_STICK, |r| steady(r)?.stick_fraction),
+    belt("stick-fraction", "fraction of the time spent sticking", Computation::ResponseWithCost, &[
+        variable(("stick_fraction", ""), "fraction of the time spent sticking", RATIO, OF_STICK, |r| means(r)?.stick_fraction),
     ]),
     belt(SETTLED_NAME, "whether the amplitudes of the two halves of the record agree", Computation::Response, &[
         variable(("settled", ""), "whether the response has settled", SETTLED, OF_RESPONSE, |r| Ok(f64::from(u8::from(steady(r)?.settled)))),
     ]),
-    belt("mean-friction", "mean friction force divided by k", Computation::Response, &[
-        variable(("mean_friction", "⟨f⟩"), "mean friction force", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.mean_friction)),
+    belt("mean-friction", "mean friction force divided by k", Computation::ResponseWithCost, &[
+        variable(("mean_friction", "⟨f⟩"), "mean friction force", FORCE, OF_RESPONSE, |r| Ok(means(r)?.friction)),
     ]),
     belt("dither-power", "mean power supplied by tangential dither", Computation::ResponseWithCost, &[
-        variable(("dither_power", "P"), "mean power of the dither", VariableKind::Number(units::Quantity::Power), OF_COST, |r| steady(r)?.dither_power.ok_or(Status::OnlyNormalDither)),
+        variable(("dither_power", "P"), "mean power of the dither", VariableKind::Number(units::Quantity::Power), OF_COST, |r| Ok(means(r)?.dither?.0)),
     ]),
     belt("dither-stroke", "peak-to-peak displacement of the point on which tangential dither acts", Computation::ResponseWithCost, &[
-        variable(("dither_stroke", ""), "stroke of tangential dither", LENGTH, OF_COST, stroke),
+        variable(("dither_stroke", ""), "stroke of tangential dither", LENGTH, OF_COST, |r| Ok(means(r)?.dither?.1)),
     ]),
-    belt("minimum-normal-load", "smallest normal load divided by k", Computation::Response, &[
-        variable(("minimum_normal_load", "N_{min}"), "smallest normal load", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.minimum_normal_load)),
+    belt("minimum-normal-load", "smallest normal load divided by k", Computation::ResponseWithCost, &[
+        variable(("minimum_normal_load", "N_{min}"), "smallest normal load", FORCE, OF_RESPONSE, |r| Ok(means(r)?.least_load)),
     ]),
     belt("verdict", "verdict of finite-R averaging on steady sliding, with the oscillator's own response to the dither: stable or unstable", Computation::Criterion, &[
         variable(("verdict", ""), "averaged verdict on steady sliding", VERDICTS, OF_VERDICT, |r| verdict(averaged(r)?)),
@@ -214,9 +214,8 @@ fn steady(results: &Results) -> Result<ResponseNumbers, Status> {
     results.steady.unwrap_or(Err(Status::Missing))
 }
 
-fn stroke(results: &Results) -> Result<f64, Status> {
-    let found = steady(results)?;
-    found.dither_stroke.ok_or(Status::OnlyNormalDither)
+fn means(results: &Results) -> Result<ResponseMeans, Status> {
+    steady(results)?.means.ok_or(Status::Missing)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "one of five words")]

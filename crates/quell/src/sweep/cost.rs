@@ -17,6 +17,9 @@ const SLOW_PERIOD: f64 = 3e-6;
 /// Cost of a response including the end of its run, relative to the response alone.
 const SETTLING: f64 = 2.0;
 
+/// Cost of a response one at a time, with the means over a period of the motion on which its run ends, relative to one of many.
+const ALONE: f64 = 8.0;
+
 /// Cost of a run of a belt whose contact has a state, by the engine for systems and one at a time, relative to that of a rigid one.
 const WITH_STATE: f64 = 10.0;
 
@@ -57,8 +60,9 @@ const MOST: f64 = 65_536.0;
 /// Seconds of one point of a map of belts.
 pub(super) fn of_belt(study: &BeltStudy, wanted: &[Computation]) -> f64 {
     let each = wanted.iter().map(|computation| match computation {
-        Computation::Response | Computation::ResponseWithCost => response(study),
+        Computation::Response => response(study),
         Computation::ResponseWithEffect => SETTLING * response(study),
+        Computation::ResponseWithCost => ALONE * response(study),
         Computation::Criterion => criterion(study, true),
         Computation::LimitCriterion => criterion(study, false),
         Computation::CriticalAmplitudes => SEARCH * criterion(study, true),

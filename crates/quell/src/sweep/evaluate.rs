@@ -6,7 +6,7 @@
 use quell_dynamics::motion::InputCost;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{
-    Compared, Effect, Observables, ResponseCase, RunEnding, Undefined, compare_many, effect,
+    Effect, ResponseCase, RunEnding, SettledRecord, Undefined, compare_many, effect,
 };
 use quell_dynamics::simulation::{Start, within};
 use quell_dynamics::start::InitialState;
@@ -113,40 +113,25 @@ pub struct ResponseNumbers {
     pub amplitude: f64,
     /// M of the undithered run: a length.
     pub undithered_amplitude: f64,
-    /// Fraction of the record spent sticking; bristles never stick.
-    pub stick_fraction: Result<f64, Status>,
     /// Whether both runs settled, as far as E requires.
     pub settled: bool,
-    /// Mean friction force over k: a length.
-    pub mean_friction: f64,
-    /// Mean power of tangential dither over kω₀: a length squared.
-    pub dither_power: Option<f64>,
-    /// Peak-to-peak displacement at the dither frequencies: a length.
-    pub dither_stroke: Option<f64>,
-    /// Smallest normal load over k: a length.
-    pub minimum_normal_load: f64,
     /// Largest slip speed of both records and of the first slow period.
     pub largest_slip: f64,
+    /// What is measured over a period of the motion, if it is requested.
+    pub means: Option<ResponseMeans>,
 }
 
-impl From<&Compared> for ResponseNumbers {
-    fn from(compared: &Compared) -> Self {
-        let dithered = &compared.dithered;
-        let residual_vibration = compared.residual_vibration();
-        Self {
-            residual_vibration,
-            amplitude: dithered.lines.whole,
-            undithered_amplitude: compared.undithered.lines.whole,
-            stick_fraction: Ok(dithered.stick_fraction),
-            settled: compared.settled()
-                && (compared.undithered_settled() || residual_vibration.is_err()),
-            mean_friction: dithered.mean_friction,
-            dither_power: dithered.dither_power,
-            dither_stroke: dithered.dither_stroke,
-            minimum_normal_load: dithered.minimum_normal_load,
-            largest_slip: dithered.largest_slip.max(compared.undithered.largest_slip),
-        }
-    }
+/// Means over a period of a steady response, and what the dither costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ResponseMeans {
+    /// Fraction of the time spent sticking; bristles never stick.
+    pub stick_fraction: Result<f64, Status>,
+    /// Mean friction force over k: a length.
+    pub friction: f64,
+    /// Mean power of tangential dither over kω₀, a length squared, and the peak-to-peak displacement of its point.
+    pub dither: Result<(f64, f64), Status>,
+    /// Smallest normal load over k: a length.
+    pub least_load: f64,
 }
 
 /// What a map shows of one system.
@@ -370,16 +355,14 @@ impl Results {
 /// Computes at every point of a chunk.
 pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Results> {
     let mut results: Vec<Results> = points.iter().map(|study| averages(study, wanted)).collect();
-    let dither_cost = wanted.contains(&Computation::ResponseWithCost);
     if wanted.iter().any(|computation| computation.is_response()) {
-        let with_effect = wanted.contains(&Computation::ResponseWithEffect);
         let has_state = |study: &BeltStudy| study.belt().has_contact_state();
-        let found = if points.iter().any(has_state) {
-            // A grid changes numbers alone: either every point has a state or none.
-            points.iter().map(|study| with_state(study, dither_cost)).collect()
-        } else {
-            responses(points, Observables { dither_cost }, with_effect)
-        };
+        let found =
+            if wanted.contains(&Computation::ResponseWithCost) || points.iter().any(has_state) {
+                points.iter().map(alone).collect()
+            } else {
+                responses(points, wanted.contains(&Computation::ResponseWithEffect))
+            };
         for (result, outcome) in results.iter_mut().zip(found) {
             result.steady = Some(outcome.map(|(steady, _)| steady));
             result.effect = Some(outcome.and_then(|(_, effect)| effect.ok_or(Status::Missing)));
@@ -391,8 +374,8 @@ pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Resu
 /// A steady response, and the effect of the dither if requested.
 type Responded = (ResponseNumbers, Option<Effect>);
 
-/// The steady response of a belt whose contact has a state, as `response` measures it, in the numbers of the equations.
-fn with_state(study: &BeltStudy, dither_cost: bool) -> Result<Responded, Status> {
+/// The steady response of a belt as `response` measures it, in the numbers of the equations.
+fn alone(study: &BeltStudy) -> Result<Responded, Status> {
     let squeals = study.initial() == InitialState::Squealing;
     let system = belt_system::dimensionless(study);
     let found = response::run(&system, ResponseRequest::default()).map_err(|why| match why {
@@ -401,34 +384,36 @@ fn with_state(study: &BeltStudy, dither_cost: bool) -> Result<Responded, Status>
         Failure::Failed { .. } => Status::Stalled,
     })?;
     let response = &found.response;
-    let [contact] = &response.dithered.contacts[..] else { return Err(Status::Stalled) };
-    let sticks = study.belt().friction().bristles().is_none();
-    let inputs = response.dithered.inputs.iter().zip(study.belt().dithers());
-    let tangential = inputs.filter(|(_, dither)| dither.direction == Direction::Tangential);
-    let costs: Vec<&InputCost> = tangential.filter_map(|(cost, _)| cost.as_ref().ok()).collect();
-    let costs = Some(costs).filter(|costs| dither_cost && !costs.is_empty());
     let numbers = ResponseNumbers {
         residual_vibration: response.residual_vibration,
         amplitude: response.dithered.lines.whole,
         undithered_amplitude: response.undithered.lines.whole,
-        stick_fraction: if sticks { Ok(contact.stick_fraction) } else { Err(Status::NeverSticks) },
         settled: found.settled()
             && (found.undithered_settled() || response.residual_vibration.is_err()),
-        mean_friction: contact.friction,
-        dither_power: costs.as_ref().map(|costs| costs.iter().map(|cost| cost.power).sum()),
-        dither_stroke: costs.map(|costs| costs[0].stroke),
-        minimum_normal_load: contact.least_load,
         largest_slip: response.largest_slip(0),
+        means: means(study.belt(), &response.dithered),
     };
     Ok((numbers, Some(response.effect)))
 }
 
+/// What is measured over a period of a belt's response.
+fn means(belt: &Belt, record: &SettledRecord) -> Option<ResponseMeans> {
+    let contact = record.contacts.first()?;
+    let sticks = belt.friction().bristles().is_none();
+    let inputs = record.inputs.iter().zip(belt.dithers());
+    let tangential = inputs.filter(|(_, dither)| dither.direction == Direction::Tangential);
+    let costs: Vec<&InputCost> = tangential.filter_map(|(cost, _)| cost.as_ref().ok()).collect();
+    let power = costs.iter().map(|cost| cost.power).sum();
+    Some(ResponseMeans {
+        stick_fraction: if sticks { Ok(contact.stick_fraction) } else { Err(Status::NeverSticks) },
+        friction: contact.friction,
+        dither: costs.first().map(|cost| (power, cost.stroke)).ok_or(Status::OnlyNormalDither),
+        least_load: contact.least_load,
+    })
+}
+
 /// The steady responses, in one batch if the points share their solver settings.
-fn responses(
-    points: &[BeltStudy],
-    wanted: Observables,
-    with_effect: bool,
-) -> Vec<Result<Responded, Status>> {
+fn responses(points: &[BeltStudy], with_effect: bool) -> Vec<Result<Responded, Status>> {
     let starts: Vec<Result<Start, Status>> = points
         .iter()
         .map(|study| Ok(within(STEPS_OF_A_SEARCH, || study.initial().resolve(study.belt()))?))
@@ -450,16 +435,29 @@ fn responses(
         let firsts: Vec<(&Belt, Start)> =
             cases.iter().map(|case| (&case.belt, case.start)).collect();
         let firsts = range::of_starts(&firsts, range::OF_START);
-        let compared = compare_many(&cases, &solver, wanted).into_iter().zip(firsts);
+        let compared = compare_many(&cases, &solver).into_iter().zip(firsts);
         for (&at, (compared, first)) in alike.iter().zip(compared) {
             outcomes[at] = compared.map_err(|_| Status::Stalled).and_then(|compared| {
                 let start = starts[at]?;
                 let belt = points[at].belt();
+                let residual_vibration = compared.residual_vibration();
+                let (dithered, undithered) = (&compared.dithered, &compared.undithered);
+                let steady = ResponseNumbers {
+                    residual_vibration,
+                    amplitude: dithered.lines.whole,
+                    undithered_amplitude: undithered.lines.whole,
+                    settled: compared.settled()
+                        && (compared.undithered_settled() || residual_vibration.is_err()),
+                    largest_slip: dithered.largest_slip.max(undithered.largest_slip).max(first),
+                    means: None,
+                };
+                if !steady.settled {
+                    // Its record begins on the motion on which the run ends, if that is found.
+                    return alone(&points[at]);
+                }
                 let effect =
                     with_effect.then(|| effect(belt, &compared, RunEnding::of(belt, start)));
-                let steady = ResponseNumbers::from(&compared);
-                let largest_slip = steady.largest_slip.max(first);
-                Ok((ResponseNumbers { largest_slip, ..steady }, effect))
+                Ok((steady, effect))
             });
         }
     }

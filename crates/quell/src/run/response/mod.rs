@@ -184,7 +184,10 @@ impl MeasuredResponse {
     pub(crate) fn undithered_settled(&self) -> bool {
         self.response.vibrations.undithered.is_steady()
             && self.response.undithered.ending != SystemEnding::Drift
-            || self.response.residual_vibration == Err(Undefined::UnditheredSettles)
+            || matches!(
+                self.response.residual_vibration,
+                Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest)
+            )
     }
 
     /// The effect of the dither and its cost.
