@@ -6,8 +6,8 @@ use quell_model::System;
 use quell_model::profile::Wave;
 
 use super::refused::ResponseRefused;
+use super::response_plan::ResponsePlan;
 use super::spectral_meter::{CELLS_PER_SLOW_PERIOD, band_end_of_mass, samples_per_slow_period};
-use super::steady_response::ResponsePlan;
 use crate::band::{BAND_END, vibration_frequency};
 use crate::motion::Motion;
 

@@ -7,7 +7,7 @@ use quell_numerics::spectrum::low_band::{LargestLines, LowBand};
 use super::record_grid::RecordGrid;
 use super::record_lines::RecordLines;
 use super::record_tones::{lines_of, spectrum_of};
-use super::steady_response::ResponsePlan;
+use super::response_plan::ResponsePlan;
 use super::system_ending::{SystemEnding, drifts};
 use crate::motion::{
     ContactMeans, ContactMeter, InputCost, InputMeter, Motion, MotionEnd, MotionObserver,
@@ -97,12 +97,11 @@ impl SettledRecord {
             None => recorded(motion, plan, grid, &from, &mut (&mut slip, &mut meters))?,
         };
         let row = plan.row.first().copied().unwrap_or_default();
-        let scale = match &mass {
-            Some(mass) => (row * mass.displacement() * mass.belt().normal_load()).abs(),
-            None => {
-                let most = samples.iter().fold(0.0, |most: f64, sample| most.max(sample.abs()));
-                transient.largest().max(most).max(meters.row.largest())
-            }
+        let scale = if let Some(mass) = &mass {
+            (row * mass.displacement() * mass.belt().normal_load()).abs()
+        } else {
+            let most = samples.iter().fold(0.0, |most: f64, sample| most.max(sample.abs()));
+            transient.largest().max(most).max(meters.row.largest())
         };
         Ok(Self {
             spectrum: spectrum_of(&samples, grid.step),

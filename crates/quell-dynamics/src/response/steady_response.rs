@@ -17,8 +17,6 @@
 //! An undithered run on no known motion keeps vibrating if its record does not decay, or shows a vibration while steady sliding is
 //! unstable.
 
-use std::f64::consts::TAU;
-
 use quell_linear::steady::SteadySliding;
 use quell_model::System;
 
@@ -27,36 +25,14 @@ use super::measure::{ResponseCase, Undefined, keeps_vibrating_without};
 use super::record_grid::RecordGrid;
 use super::record_lines::RecordLines;
 use super::refused::ResponseRefused;
+use super::response_plan::ResponsePlan;
 use super::settled_record::SettledRecord;
-use super::solver::Solver;
 use super::system_ending::{SystemEnding, cannot_settle};
 use crate::motion::{Motion, MotionStart};
 use crate::simulation::Start;
 
 /// Peaks below this fraction of the largest are not listed.
 pub const PEAK_FLOOR: f64 = 1e-3;
-
-/// How a response is measured.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ResponsePlan {
-    /// The row that is observed.
-    pub row: Vec<f64>,
-    /// Time discarded before the record.
-    pub settle: f64,
-    /// Length of the record.
-    pub length: f64,
-    /// Bound on the last terms of a step, as of [`Motion::run_tolerance`]; `None` for that of the engine.
-    pub tolerance: Option<f64>,
-}
-
-impl From<&Solver> for ResponsePlan {
-    /// The plan of a belt's response in the numbers of its equations.
-    fn from(solver: &Solver) -> Self {
-        let Solver { tolerance, settle, record_periods } = *solver;
-        let length = TAU * f64::from(record_periods);
-        Self { row: vec![1.0], settle, length, tolerance: Some(tolerance) }
-    }
-}
 
 /// The steady response of a system.
 #[derive(Clone, Debug)]

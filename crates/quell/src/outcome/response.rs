@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
+use quell_dynamics::response::PEAK_FLOOR;
 use quell_model::units::Quantity;
+use quell_numerics::order::descending_by;
 use serde_json::Value as Json;
 
 use super::Presented;
@@ -12,7 +14,12 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::response::MeasuredResponse;
+use crate::run::system::attractor::in_words;
+use crate::run::system::oscillating;
 use crate::study::{SystemSetup, SystemStudy};
+
+/// Lines of the spectrum in the text; JSON has them all.
+const PEAKS: usize = 4;
 
 impl Presented<SystemSetup> for MeasuredResponse {
     const TITLED: bool = true;
@@ -47,6 +54,23 @@ impl Presented<SystemSetup> for MeasuredResponse {
                 length(record.observed.deviation()),
                 length(record.observed.mean())
             );
+        }
+        let ending = &self.response.dithered.ending;
+        let found = ending.motion().map(|found| in_words(found, study.units()));
+        let _ = writeln!(
+            text,
+            "  ends on: {}",
+            found.unwrap_or_else(|| ending.name().replace('-', " "))
+        );
+        let mut peaks = self.response.dithered.spectrum.peaks(PEAK_FLOOR);
+        descending_by(&mut peaks, |peak| peak.amplitude);
+        let lines = peaks.iter().take(PEAKS).map(|peak| {
+            let size = with(Quantity::Displacement, peak.amplitude);
+            format!("{size} {}", oscillating(study.units(), peak.frequency))
+        });
+        let lines: Vec<String> = lines.collect();
+        if !lines.is_empty() {
+            let _ = writeln!(text, "  largest lines of the spectrum: {}", lines.join(", "));
         }
         for (contact, means) in study.system().contacts.iter().zip(&self.response.dithered.contacts)
         {
