@@ -222,11 +222,12 @@ def test_responses_have_contacts_and_dithers(drive: quell.System, belt: quell.Be
     assert done.contacts[0]["name"] == "guide" and 0 <= done.contacts[0]["stick_fraction"] <= 1
     assert done.dithers[0]["stroke"] > 0 and done.band_end < 10
     assert done.half_peak_to_peak >= 0.9 * done.amplitude
-    assert done.dataset["observed"].dims == ("time",) and done.dataset["spectrum_amplitude"].dims == ("frequency",)
+    assert done.dataset["displacement"].dims == ("time",) and done.dataset["spectrum_amplitude"].dims == ("frequency",)
     with pytest.raises(quell.StudyError, match="settle"):
         drive.response(settle="soon")
     with pytest.raises(quell.StudyError, match="record"):
-        belt.response(record=10)
+        belt.response(record="long")
+    assert belt.response(settle=100, record=60).facts["record_length"] == 60
 
 
 def sliding_mass() -> quell.System:
@@ -240,12 +241,13 @@ def sliding_mass() -> quell.System:
 
 def test_responses_say_on_which_motion_they_settled(drive: quell.System) -> None:
     done = sliding_mass().response()
-    assert (done.settled, done.settled_on, done.undithered_settled_on) == (True, "orbit", "rest")
+    assert (done.settled, done.ends_on, done.undithered_ends_on) == (True, "period-1", "rest")
+    assert (done.base_response, done.quiet) == (True, True)
     assert done.period == pytest.approx(2 * np.pi / 10, rel=1e-12)
     assert done.undithered_period is None and "periodic" in done.why["undithered_period"]
     # Without dither the drive squeals, in a limit cycle.
     squealing = drive.set({"dither.amplitude": 5.6}).response(settle=400, record=200)
-    assert (squealing.settled_on, squealing.undithered_settled_on) == ("orbit", "orbit")
+    assert (squealing.ends_on, squealing.undithered_ends_on) == ("period-1", "limit-cycle")
     assert squealing.period == pytest.approx(2 * np.pi / 10, rel=1e-12)
     cycle = drive.set({"dither.amplitude": 0.0}).orbit()
     assert squealing.undithered_period == pytest.approx(cycle.period, rel=1e-6)

@@ -8,6 +8,7 @@ use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{design, modes, motion, resonances, stability};
 use crate::run::probability;
 use crate::run::recorded_motion::ObservedMotion;
+use crate::run::response::ResponseRequest;
 use crate::run::simulate::MotionRequest;
 use crate::study::{DiscSetup, DiscStudy};
 use crate::sweep::Running;
@@ -26,6 +27,7 @@ impl Verbs for DiscStudy {
             "modes",
             "stability",
             "simulate",
+            "response --window",
             "design",
             "probability",
             "resonances",
@@ -53,6 +55,14 @@ impl Verbs for DiscStudy {
 
     fn simulate(&self, request: &MotionRequest) -> Reply {
         answer(self, motion::run(self, request))
+    }
+
+    fn response(&self, request: &ResponseRequest) -> Reply {
+        // Its vibration without dither grows without bound or dies out: there is no steady one to compare with.
+        match request.window {
+            Some(_) => Verbs::response(&motion::at_rest(self), request),
+            None => Err(self.lacks("response")),
+        }
     }
 
     fn design(&self) -> Reply {

@@ -658,20 +658,15 @@ class NoiseResponseColumns(Frozen):
     contact_mean_friction: npt.NDArray[np.float64]
     contact_mean_friction_undithered: npt.NDArray[np.float64]
     contact_name: npt.NDArray[np.str_]
-    cost_displacement_rms: float
-    cost_force_peak: float
-    cost_force_rms: float
-    cost_power: float
-    cost_stroke: float
-    cost_velocity_rms: float
     dither_displacement_rms: npt.NDArray[np.float64]
     dither_force_peak: npt.NDArray[np.float64]
     dither_force_rms: npt.NDArray[np.float64]
     dither_power: npt.NDArray[np.float64]
     dither_stroke: npt.NDArray[np.float64]
     dither_velocity_rms: npt.NDArray[np.float64]
-    mean_friction_value: float
+    mean_friction: npt.NDArray[np.float64]
     seed: npt.NDArray[np.float64]
+    stick_fraction: npt.NDArray[np.float64]
 
 
 class OrbitColumns(Frozen):
@@ -874,17 +869,15 @@ class ResponseColumns(Frozen):
     displacement: npt.NDArray[np.float64]
     dither_actuator_power: npt.NDArray[np.float64]
     dither_actuator_stroke: npt.NDArray[np.float64]
+    dither_power: npt.NDArray[np.float64]
+    dither_stroke: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
-    observed: npt.NDArray[np.float64]
     peak_amplitude: npt.NDArray[np.float64]
     peak_frequency: npt.NDArray[np.float64]
     spectrum_amplitude: npt.NDArray[np.float64]
     spectrum_undithered_amplitude: npt.NDArray[np.float64]
-    sticking: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
     undithered_displacement: npt.NDArray[np.float64]
-    undithered_observed: npt.NDArray[np.float64]
-    undithered_sticking: npt.NDArray[np.float64]
     undithered_velocity: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
 

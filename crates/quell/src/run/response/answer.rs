@@ -9,6 +9,7 @@ use super::{MeasuredResponse, uncertain, undefined};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::effect_words::level_of;
+use crate::run::system::attractor::put_quietness;
 use crate::run::system::of_runs::put_means;
 use crate::run::system::start::start_in_words;
 use crate::study::{SystemStudy, UnitSystem};
@@ -125,12 +126,7 @@ fn put_ending(fields: &mut Fields, prefix: &str, ending: &SystemEnding) {
         fields.unknown(&name("quiet"), unknown()).unknown(&name("base_response"), unknown());
         return;
     };
-    fields.plain(&name("quiet"), found.quiet);
-    match found.base {
-        Some(base) => fields.plain(&name("base_response"), base),
-        None => fields
-            .unknown(&name("base_response"), "it is known of a motion in step with a dither alone"),
-    };
+    put_quietness(fields, prefix, found);
 }
 
 /// Adds the measures of a record under names with a prefix.

@@ -124,17 +124,8 @@ pub(in crate::run) fn put_attractor(
     attractor: &SystemAttractor,
     study: &SystemStudy,
 ) {
-    fields
-        .plain("words", in_words(attractor, study.units()))
-        .plain("kind", attractor.kind_name())
-        .plain("quiet", attractor.quiet);
-    match attractor.base {
-        Some(base) => fields.plain("base_response", base),
-        None if attractor.kind_code() == 0 => {
-            fields.unknown("base_response", "the base response was not found")
-        }
-        None => fields.plain("base_response", false),
-    };
+    fields.plain("words", in_words(attractor, study.units())).plain("kind", attractor.kind_name());
+    put_quietness(fields, "", attractor);
     put_turns(fields, attractor);
     match attractor.kind {
         MotionKind::Periodic { periods, radius } => {
@@ -165,6 +156,23 @@ pub(in crate::run) fn put_attractor(
         None => fields.unknown("section_velocity", WITHOUT_VELOCITY),
     };
     fields.list("contacts", contacts);
+}
+
+/// Adds whether a motion is quiet, and the base response, under names with a prefix.
+pub(in crate::run) fn put_quietness(
+    fields: &mut Fields,
+    prefix: &str,
+    attractor: &SystemAttractor,
+) {
+    fields.plain(&format!("{prefix}quiet"), attractor.quiet);
+    let name = format!("{prefix}base_response");
+    match attractor.base {
+        Some(base) => fields.plain(&name, base),
+        None if attractor.kind_code() == 0 => {
+            fields.unknown(&name, "the base response was not found")
+        }
+        None => fields.plain(&name, false),
+    };
 }
 
 /// The slow revolutions, or why they are not known.
