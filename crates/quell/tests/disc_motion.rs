@@ -4,6 +4,7 @@ use std::path::Path;
 
 use quell::kind::{moving_system, verbs};
 use quell::run::disc::{motion, stability};
+use quell::run::response::ResponseRequest;
 use quell::run::simulate::MotionRequest;
 use quell::run::system::start::read_state;
 use quell::study::{DiscStudy, Study};
@@ -125,4 +126,17 @@ fn names_start_units_and_files() {
     assert!(done.sound().expect("a sound").is_ok() && done.figure().expect("a picture").is_ok());
     let chosen = verbs(&any).simulate(&MotionRequest::default()).expect("a motion").json();
     assert!(chosen["sentence"].as_str().is_some_and(|text| text.contains("--until sets another")));
+}
+
+/// What a disc does between two of its times: a growing motion is larger in a later window. It has no steady response.
+#[test]
+fn a_window_of_a_run() {
+    let any = Study::from(&study(JUMPING));
+    let within = |window| {
+        let request = ResponseRequest { window: Some(window), ..ResponseRequest::default() };
+        number(&verbs(&any).response(&request).expect("a window").json(), "amplitude")
+    };
+    let (early, late) = (within((0.0, 20.0)), within((40.0, 60.0)));
+    assert!(early > 0.0 && late != early, "{early} {late}");
+    assert!(verbs(&any).response(&ResponseRequest::default()).is_err());
 }

@@ -60,7 +60,7 @@ impl Verbs for DiscStudy {
     fn response(&self, request: &ResponseRequest) -> Reply {
         // Its vibration without dither grows without bound or dies out: there is no steady one to compare with.
         match request.window {
-            Some(_) => Verbs::response(&motion::at_rest(self), request),
+            Some(_) => Verbs::response(&motion::disturbed(self)?, request),
             None => Err(self.lacks("response")),
         }
     }

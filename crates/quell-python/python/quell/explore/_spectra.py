@@ -23,9 +23,6 @@ MOST_SAMPLES = 4000
 FLOOR_DB = -120.0
 """Least level that a spectrum shows."""
 
-BAND_OF_A_BELT = 1.9
-"""Upper end of the band of slow vibration of a belt in ω₀, in which E compares the largest lines, equation (2.27)."""
-
 LONGEST_SMALL = 150
 """Longest small motion of a disc, in slow periods."""
 
@@ -48,7 +45,7 @@ def response(study: Study) -> Answer:
     in_hertz = own == "rad/s"
     per_unit = 2.0 * math.pi if in_hertz else 1.0
     frequency = frequency / per_unit
-    end = band_end(study, found.facts, in_hertz)
+    end = band_end(found.facts, in_hertz)
     _, fast = times(study)
     rate = 2.0 * math.pi / per_unit / fast if fast else 0.0
     peaks = [it["frequency"] / per_unit for it in found.facts.get("peaks", [])]
@@ -57,13 +54,10 @@ def response(study: Study) -> Answer:
     return {**in_db(frequency[inside], before[inside], after[inside], end), "unit": "Hz" if in_hertz else own, **said}
 
 
-def band_end(study: Study, facts: Mapping[str, Any], in_hertz: bool) -> float | None:
+def band_end(facts: Mapping[str, Any], in_hertz: bool) -> float | None:
     """The upper end of the band of E in the unit of a spectrum, where it is known."""
-    if study._native.kind == "system":
-        end = facts.get("band_end")
-        return None if end is None else float(end) / (2.0 * math.pi if in_hertz else 1.0)
-    slow, _ = times(study)
-    return BAND_OF_A_BELT / slow if in_hertz else BAND_OF_A_BELT
+    end = facts.get("band_end")
+    return None if end is None else float(end) / (2.0 * math.pi if in_hertz else 1.0)
 
 
 def loudness_of(study: Study, found: Any) -> str:
@@ -73,7 +67,7 @@ def loudness_of(study: Study, found: Any) -> str:
         return ""
     noise = isinstance(found, NoiseResponse)
     share = facts.get("residual_vibration_median") if noise else facts.get("residual_vibration")
-    what = f"the vibration of the median run {band_of(study, facts)}" if noise else f"the steady vibration {band_of(study, facts)}"
+    what = f"the vibration of the median run {band_of(facts)}" if noise else f"the steady vibration {band_of(facts)}"
     if share is None:
         why = found.why.get("residual_vibration", "")
         return f"How much dither changes {what} is unknown{f': {why}' if why else ''}."
@@ -84,10 +78,8 @@ def loudness_of(study: Study, found: Any) -> str:
     return f"With dither, {what} is {change} (E = {100.0 * share:.3g} %)."
 
 
-def band_of(study: Study, facts: Mapping[str, Any]) -> str:
+def band_of(facts: Mapping[str, Any]) -> str:
     """The band of E in words."""
-    if study._native.kind == "belt":
-        return f"below {BAND_OF_A_BELT} ω₀"
     end = facts.get("band_end")
     if end is None:
         return "below the dither"
@@ -149,7 +141,7 @@ def spectra_of_noise(study: Study, found: NoiseResponse) -> Answer:
         frequency = frequency / (2.0 * math.pi)
     top = 1.3 * (2.0 * math.pi / (fast or slow)) / (2.0 * math.pi if in_hertz else 1.0)
     inside = frequency <= top
-    end = band_end(study, found.facts, in_hertz)
+    end = band_end(found.facts, in_hertz)
     words = "Hz" if in_hertz else "ω₀" if study._native.kind == "belt" else ""
     return {**in_db(frequency[inside], lines[0][inside], lines[-1][inside], end), "unit": words}
 

@@ -95,6 +95,28 @@ pub fn at_rest(study: &DiscStudy) -> SystemStudy {
     described(study, system, SystemStart::Rest)
 }
 
+/// The disc as a system that begins on its leading small motion, as `simulate` does.
+///
+/// # Errors
+/// [`Failure::Failed`] without steady sliding.
+pub fn disturbed(study: &DiscStudy) -> Result<SystemStudy, Failure> {
+    let system = study.disc().system_of(study.parts());
+    let initial = of_leading_motion(&leading_motion(study, &system, 0.0)?);
+    Ok(described(study, system, initial))
+}
+
+/// The leading small motion; of a speed, load or dither that varies, that of the moment at which a run begins.
+fn leading_motion(study: &DiscStudy, system: &System, begin: f64) -> Result<Kick, Failure> {
+    let moment =
+        (!study.disc().is_steady()).then(|| study.disc().steady_at(begin).system_of(study.parts()));
+    kick::of(moment.as_ref().unwrap_or(system), &observed_row(study))
+}
+
+fn of_leading_motion(kick: &Kick) -> SystemStart {
+    let words = "the leading small motion".to_owned();
+    SystemStart::Described { state: kick.state.clone(), words }
+}
+
 /// Integrates the disc from its leading small motion, or from rest with the given numbers.
 ///
 /// # Errors
@@ -103,15 +125,9 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
     let system = study.disc().system_of(study.parts());
     let begin = request.from.as_ref().map_or(0.0, |from| from.time);
     let is_steady = study.disc().is_steady();
-    // Of a speed, load or dither that varies, the leading motion is that of the moment at which the run begins.
-    let moment = (!is_steady).then(|| study.disc().steady_at(begin).system_of(study.parts()));
-    let kick = kick::of(moment.as_ref().unwrap_or(&system), &observed_row(study))?;
-    let initial = if request.begins_as_the_study() {
-        let words = "the leading small motion".to_owned();
-        SystemStart::Described { state: kick.state.clone(), words }
-    } else {
-        SystemStart::Rest
-    };
+    let kick = leading_motion(study, &system, begin)?;
+    let initial =
+        if request.begins_as_the_study() { of_leading_motion(&kick) } else { SystemStart::Rest };
     let system = described(study, system, initial);
     let until = match request.until {
         Some(until) => until,
