@@ -134,7 +134,7 @@ pub fn effect(belt: &Belt, compared: &Compared, ending: RunEnding) -> Effect {
         return Effect::Unknown(Uncertain::NoDither);
     }
     let quiet_without = match compared.residual_vibration() {
-        Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest) => true,
+        Err(why) if why.is_quiet() => true,
         Err(why) => return Effect::Unknown(Uncertain::Undithered(why)),
         Ok(_) => false,
     };

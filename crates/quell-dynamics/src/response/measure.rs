@@ -31,9 +31,16 @@ pub enum Undefined {
     UnditheredUnstable,
     /// The undithered run drifts.
     UnditheredDrifts,
+    /// What is observed of the undithered vibration is not in the band of slow vibration.
+    UnditheredStill,
 }
 
 impl Undefined {
+    /// Whether nothing of the undithered run vibrates in the band in the end.
+    pub fn is_quiet(self) -> bool {
+        matches!(self, Self::UnditheredSettles | Self::UnditheredAtRest | Self::UnditheredStill)
+    }
+
     /// Whether it is unknown if the undithered run vibrates.
     pub fn is_unknown(self) -> bool {
         matches!(self, Self::UnditheredUnknown | Self::UnditheredUnstable | Self::UnditheredDrifts)
@@ -58,6 +65,9 @@ impl fmt::Display for Undefined {
             Self::UnditheredUnstable => {
                 "without dither the run stays in steady sliding, which is unstable, because its start does not disturb it: choose \
                  another start"
+            }
+            Self::UnditheredStill => {
+                "without dither what is observed does not vibrate in the band of slow vibration, so there is no vibration to compare with"
             }
             Self::UnditheredDrifts => {
                 "without dither the observed motion drifts: over the record it moves on by more than it vibrates"
@@ -117,6 +127,9 @@ impl Compared {
     /// Why E is undefined.
     pub fn residual_vibration(&self) -> Result<f64, Undefined> {
         self.vibrates?;
+        if self.undithered.record().is_negligible() {
+            return Err(Undefined::UnditheredStill);
+        }
         Ok(self.dithered.lines.whole / self.undithered.lines.whole)
     }
 

@@ -53,6 +53,9 @@ impl RecordGrid {
         let own = own.min(slow / SAMPLES_PER_SLOW_PERIOD);
         let fastest = system.waves().map(Wave::highest).fold(0.0, f64::max);
         let longest = own.min(TAU / (SAMPLES_PER_DITHER_PERIOD * fastest));
+        if plan.length < longest {
+            return Err(ResponseRefused::TooShort { least: LEAST_SAMPLES * longest });
+        }
         let wanted = (plan.length / longest).max(LEAST_SAMPLES);
         if wanted > MOST_SAMPLES {
             return Err(ResponseRefused::TooLong { most: longest * MOST_SAMPLES });
@@ -69,6 +72,9 @@ impl RecordGrid {
     /// The samples of a map of belts: a whole number of cells of a slow period.
     fn of_mass(per_period: f64, rate: f64, plan: &ResponsePlan) -> Result<Self, ResponseRefused> {
         let step = TAU / (rate * per_period);
+        if plan.length < step {
+            return Err(ResponseRefused::TooShort { least: TAU / (rate * BAND_END) });
+        }
         let cell = per_period / CELLS_PER_SLOW_PERIOD as f64;
         // The length may err by rounding.
         let cells = (plan.length / (step * cell) * (1.0 - 1e-12)).ceil().max(1.0);

@@ -9,6 +9,7 @@ use super::record_lines::RecordLines;
 use super::record_tones::{lines_of, spectrum_of};
 use super::response_plan::ResponsePlan;
 use super::system_ending::{SystemEnding, drifts};
+use crate::motion::orbit::is_on_sliding;
 use crate::motion::{
     ContactMeans, ContactMeter, InputCost, InputMeter, Motion, MotionEnd, MotionObserver,
     MotionSegment, MotionStart, MotionStopped, NoPower, ReadingSampler, RowMeter,
@@ -80,12 +81,21 @@ impl SettledRecord {
             Some(_) => motion.run(start, until, tolerance, &mut slip)?,
             None => motion.run(start, until, tolerance, &mut (&mut slip, &mut transient))?,
         };
-        let ending = SystemEnding::of(system, &plan.row, start, &settled);
+        let mut ending = SystemEnding::of(system, &plan.row, start, &settled);
+        // Rounding may drive a run away from unstable sliding within its record.
+        let leaves = ending == SystemEnding::UnstableSliding
+            && !is_on_sliding(
+                system,
+                &motion.run(&settled.restart(), until + plan.length, tolerance, &mut ())?.state,
+            );
+        if leaves {
+            ending = SystemEnding::judged(system, &plan.row, start);
+        }
         let repeats = match ending.period() {
             Some(period) => Some((ending.record_from(motion, tolerance, &settled)?, period)),
             None => None,
         };
-        let on_motion = mass.is_none() && repeats.is_some();
+        let on_motion = repeats.is_some() && (mass.is_none() || leaves);
         let begin = repeats.as_ref().filter(|_| on_motion).map(|(start, _)| start.clone());
         let from = begin.unwrap_or_else(|| settled.restart());
         let mut meters = RunMeters::new(motion, &plan.row);
@@ -124,8 +134,8 @@ impl SettledRecord {
         })
     }
 
-    /// Measures M in the band of slow vibration. A record of one mass that has not settled begins again on the motion on which the run is
-    /// found to end, if that repeats itself; `reference`: M without dither, if it is known.
+    /// Measures M in the band of slow vibration. A record that has not settled begins again on the motion on which the run is found to end,
+    /// if that repeats itself or is rest; `reference`: M without dither, if it is known.
     ///
     /// # Errors
     /// [`MotionStopped`].
@@ -140,10 +150,17 @@ impl SettledRecord {
         let found = RecordLines { lines: self.lines, scale: self.scale };
         let is_settled =
             found.is_settled(reference.unwrap_or(self.lines.whole)) && !drifts(&self.samples);
-        if !self.on_motion && !is_settled && self.ending.period().is_some() {
+        let is_known = self.ending.period().is_some() || self.ending.is_rest();
+        if !self.on_motion && !is_settled && is_known {
             let tolerance = motion.run_tolerance(plan.tolerance);
             let from = self.ending.record_from(motion, tolerance, &self.settled)?;
-            let again = recorded(motion, plan, grid, &from, &mut ())?;
+            let mut meters = RunMeters::new(motion, &plan.row);
+            let again = recorded(motion, plan, grid, &from, &mut meters)?;
+            if self.ending.is_rest() {
+                self.contacts = meters.contacts.means().unwrap_or_default();
+                self.inputs = meters.inputs.costs().unwrap_or_default();
+                self.observed = meters.row;
+            }
             self.spectrum = spectrum_of(&again.samples, grid.step);
             (self.samples, self.rates, self.end) = (again.samples, again.rates, again.end);
             self.on_motion = true;

@@ -138,14 +138,14 @@ impl<'a> UnditheredResponse<'a> {
         let scale = dithered.scale.max(undithered.scale);
         let [with, without] =
             [&dithered, &undithered].map(|record| RecordLines { lines: record.lines, scale });
-        let vibrates = self.vibrates(without);
+        let vibrates = self.vibrates(without).and_then(|()| match without.is_negligible() {
+            true => Err(Undefined::UnditheredStill),
+            false => Ok(()),
+        });
         let vibrations = Vibrations {
             dithered: with,
             undithered: without,
-            quiet_without: matches!(
-                vibrates,
-                Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest)
-            ),
+            quiet_without: vibrates.is_err_and(Undefined::is_quiet),
             quiet_with: dithered.ending.motion().is_some_and(|found| found.quiet),
         };
         let effect = match vibrates {

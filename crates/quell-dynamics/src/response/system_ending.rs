@@ -41,6 +41,11 @@ impl SystemEnding {
         if !system.is_dithered() && is_unstable_sliding(system, &end.state) {
             return Self::UnstableSliding;
         }
+        Self::judged(system, row, start)
+    }
+
+    /// The ending of a run from a start by the judge, which displaces it from unstable sliding.
+    pub(super) fn judged(system: &System, row: &[f64], start: &MotionStart) -> Self {
         let found = match end_of_run(system, row, &start.state) {
             Ok(end) => end.attractor,
             Err(why) => return Self::Record(Some(why)),
@@ -130,7 +135,13 @@ impl SystemEnding {
         tolerance: f64,
         end: &MotionEnd,
     ) -> Result<MotionStart, MotionStopped> {
-        let Self::Motion { found, period: Some(period) } = self else { return Ok(end.restart()) };
+        let (found, period) = match self {
+            Self::Motion { found, period: Some(period) } => (found, period),
+            Self::Motion { found, .. } if found.kind == MotionKind::Rest => {
+                return Ok(MotionStart { time: end.time, state: found.state.clone() });
+            }
+            _ => return Ok(end.restart()),
+        };
         let places = match found.kind {
             MotionKind::Periodic { periods, .. } => periods,
             _ => 1,

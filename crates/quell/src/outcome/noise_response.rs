@@ -25,6 +25,8 @@ fn table(found: &NoiseResponse, table: &mut TextTable, band: &str) {
 }
 
 impl Presented<SystemSetup> for NoiseResponse {
+    const TITLED: bool = true;
+
     fn json(&self, study: &SystemStudy) -> Json {
         let sentence = Presented::sentence(self, study).unwrap_or_default();
         self.json(|| Fields::of_system(study.units()), sentence)
@@ -51,14 +53,14 @@ impl Presented<SystemSetup> for NoiseResponse {
         for (index, cost) in self.costs.iter().enumerate() {
             let words = match cost {
                 Ok(cost) => format!(
-                    "{}, stroke {}, power {}",
+                    "force {}, stroke {}, both rms; power {}",
                     with(Quantity::Force, cost.force),
                     with(Quantity::Displacement, cost.displacement),
                     with(Quantity::Power, cost.power)
                 ),
                 Err(why) => format!("unknown: {why}"),
             };
-            text.word(&format!("dither[{index}], rms force"), &words);
+            text.word(&format!("dither[{index}]"), &words);
         }
         text.text()
     }

@@ -13,6 +13,8 @@ use crate::run::window::WindowedResponse;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for WindowedResponse {
+    const TITLED: bool = true;
+
     fn json(&self, study: &SystemStudy) -> Json {
         Self::json(self, study)
     }

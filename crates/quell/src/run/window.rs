@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 use super::failed;
 use super::system::of_runs::{beyond_laws, of_engine, put_means};
 use super::system::start::start_of;
-use super::system::{has_equations, in_units};
+use super::system::{frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Failure};
 use crate::fields::Fields;
 use crate::study::SystemStudy;
@@ -95,7 +95,7 @@ impl WindowedResponse {
             Ok(line) => format!(
                 "; its strongest line is {} at {}",
                 length(line.amplitude),
-                in_words(Quantity::FrequencyRatio, line.frequency)
+                frequency_in_words(study.units(), line.frequency)
             ),
             Err(_) => String::new(),
         };

@@ -265,7 +265,7 @@ impl Status {
 impl From<Undefined> for Status {
     fn from(why: Undefined) -> Self {
         match why {
-            Undefined::UnditheredSettles => Self::UnditheredSettles,
+            Undefined::UnditheredSettles | Undefined::UnditheredStill => Self::UnditheredSettles,
             Undefined::UnditheredAtRest => Self::UnditheredAtRest,
             Undefined::UnditheredUnknown
             | Undefined::UnditheredUnstable

@@ -3,10 +3,13 @@
 mod answer;
 mod band;
 
+use std::f64::consts::TAU;
+
+use quell_dynamics::attractor::MotionKind;
 use quell_dynamics::motion::InputCost;
 use quell_dynamics::response::{
     Effect, ResponsePlan, ResponseRefused, SteadyResponse, SystemEnding, Uncertain, Undefined,
-    respond,
+    respond, vibration_frequency,
 };
 use quell_model::units::Quantity;
 
@@ -110,7 +113,9 @@ pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRef
     let record = |allowed: String| match study.record().length {
         Some(length) if length == plan.length => {
             let key = "solver.record_periods";
-            Complaint::new(Fault::Value, key, Origin::Whole, plan.length, allowed).into()
+            let slow = study.system().one_averaged_mass().map_or(1.0, |mass| TAU / mass.rate());
+            Complaint::new(Fault::Value, key, Origin::Whole, (length / slow).round(), allowed)
+                .into()
         }
         _ => Complaint::option("--record", plan.length, allowed).into(),
     };
@@ -140,6 +145,9 @@ pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<MeasuredResp
     Ok(MeasuredResponse { plan, response })
 }
 
+/// Periods of the vibration below which a record is short: the main lobe of its window is then wider than half of their frequency.
+const FEW_PERIODS: f64 = 8.0;
+
 /// Relative change of the mean friction that is rounding.
 const UNCHANGED: f64 = 1e-9;
 
@@ -151,7 +159,9 @@ pub(crate) fn undefined(why: Undefined) -> String {
              settle for longer"
                 .to_owned()
         }
-        Undefined::UnditheredUnstable | Undefined::UnditheredDrifts => why.to_string(),
+        Undefined::UnditheredUnstable
+        | Undefined::UnditheredDrifts
+        | Undefined::UnditheredStill => why.to_string(),
         Undefined::UnditheredSettles | Undefined::UnditheredAtRest => {
             "without dither the motion settles without vibration from this start, so there is no vibration to compare with"
                 .to_owned()
@@ -175,6 +185,9 @@ impl MeasuredResponse {
 
     /// Whether the run with dither ends on an orbit, or M of the halves of its record agree.
     pub(crate) fn settled(&self) -> bool {
+        if !self.has_dither() {
+            return self.undithered_settled();
+        }
         let vibrations = &self.response.vibrations;
         vibrations.dithered.is_settled(vibrations.undithered.whole())
             && self.response.dithered.ending != SystemEnding::Drift
@@ -184,10 +197,7 @@ impl MeasuredResponse {
     pub(crate) fn undithered_settled(&self) -> bool {
         self.response.vibrations.undithered.is_steady()
             && self.response.undithered.ending != SystemEnding::Drift
-            || matches!(
-                self.response.residual_vibration,
-                Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest)
-            )
+            || self.response.residual_vibration.is_err_and(Undefined::is_quiet)
     }
 
     /// The effect of the dither and its cost.
@@ -312,7 +322,36 @@ impl MeasuredResponse {
             }
         }
         warnings.extend(self.longer_than_record(study));
+        warnings.extend(self.means_of_record(study));
+        warnings.extend(self.few_periods(study));
         warnings
+    }
+
+    /// A warning about means over a record of a motion that does not repeat itself: where the record is cut changes them.
+    fn means_of_record(&self, study: &SystemStudy) -> Option<String> {
+        let found = self.response.dithered.ending.motion()?;
+        let repeats = self.response.dithered.ending.period().is_some();
+        let length = in_units(study.units(), Quantity::Time, self.plan.length);
+        (!repeats && found.kind != MotionKind::Rest).then(|| {
+            format!(
+                "the motion does not repeat itself: mean friction, powers and strokes are those of a record of {length}, and change with its \
+                 ends; a longer --record determines them better"
+            )
+        })
+    }
+
+    /// A warning about a record that is short against the vibration, whose lines its window does not separate.
+    fn few_periods(&self, study: &SystemStudy) -> Option<String> {
+        let slow = TAU / vibration_frequency(study.system())?;
+        let is_short = self.plan.length < FEW_PERIODS * slow;
+        let [length, slow] =
+            [self.plan.length, slow].map(|time| in_units(study.units(), Quantity::Time, time));
+        is_short.then(|| {
+            format!(
+                "the record of {length} is short against a period of the slow vibration, {slow}: amplitudes and E depend on its length; raise \
+                 --record"
+            )
+        })
     }
 
     /// A warning about a free vibration that takes longer than its record, such as one with long sticks on a slow surface.
