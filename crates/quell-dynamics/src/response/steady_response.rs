@@ -138,10 +138,10 @@ impl<'a> UnditheredResponse<'a> {
         let scale = dithered.scale.max(undithered.scale);
         let [with, without] =
             [&dithered, &undithered].map(|record| RecordLines { lines: record.lines, scale });
-        let vibrates = self.vibrates(without).and_then(|()| match without.is_negligible() {
-            true => Err(Undefined::UnditheredStill),
-            false => Ok(()),
-        });
+        let vibrates = match self.vibrates(without) {
+            Ok(()) if without.is_negligible() => Err(Undefined::UnditheredStill),
+            vibrates => vibrates,
+        };
         let vibrations = Vibrations {
             dithered: with,
             undithered: without,
