@@ -145,8 +145,8 @@ pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<MeasuredResp
     Ok(MeasuredResponse { plan, response })
 }
 
-/// Periods of the vibration below which a record is short: the main lobe of its window is then wider than half of their frequency.
-const FEW_PERIODS: f64 = 8.0;
+/// Periods of the vibration below which a record is short: the main lobe of its window, four lines wide, then reaches the mean.
+const FEW_PERIODS: f64 = 4.0;
 
 /// Relative change of the mean friction that is rounding.
 const UNCHANGED: f64 = 1e-9;
