@@ -93,7 +93,10 @@ pub fn start_of(study: &SystemStudy) -> Result<MotionStart, Failure> {
     let system = study.system();
     let size = system.state_size();
     let refused = |name: &str, allowed: String| -> Failure {
-        Complaint::new(Fault::Value, "system.initial.state", Origin::Whole, name, allowed).into()
+        // The system of a belt has the document of the belt.
+        let is_belt = study.document().get("belt").is_some();
+        let key = if is_belt { "belt.initial.state" } else { "system.initial.state" };
+        Complaint::new(Fault::Value, key, Origin::Whole, name, allowed).into()
     };
     // Steady sliding and squeal at the beginning are those of the drives, loads and amplitudes there.
     let first = if system.is_steady() { system.clone() } else { system.steady_at(0.0) };
