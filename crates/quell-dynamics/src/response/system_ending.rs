@@ -93,7 +93,7 @@ impl SystemEnding {
     pub fn why(&self) -> Option<String> {
         match self {
             Self::Record(Some(why)) => Some(why.to_string()),
-            Self::Record(None) => Some("no periodic motion was looked for".to_owned()),
+            Self::Record(None) => Some("no stable motion that repeats itself is known".to_owned()),
             Self::Motion { .. } | Self::UnstableSliding | Self::Drift => None,
         }
     }
