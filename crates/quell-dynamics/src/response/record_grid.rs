@@ -7,28 +7,23 @@ use quell_model::profile::Wave;
 
 use super::refused::ResponseRefused;
 use super::response_plan::ResponsePlan;
-use super::spectral_meter::{CELLS_PER_SLOW_PERIOD, band_end_of_mass, samples_per_slow_period};
+use super::spectral_meter::{
+    CELLS_PER_SLOW_PERIOD, SAMPLES_PER_DITHER_PERIOD, SAMPLES_PER_SLOW_PERIOD, WINDOW_REACH,
+    band_end_of_mass, samples_per_slow_period,
+};
 use crate::band::{BAND_END, vibration_frequency};
 use crate::motion::Motion;
-
-/// Samples per period of the fastest dither, at least: its seventh harmonic stays below the Nyquist frequency.
-const SAMPLES_PER_DITHER_PERIOD: f64 = 16.0;
 
 /// Samples per period of the fastest motion of the structure, at least.
 const SAMPLES_PER_PERIOD: f64 = 8.0;
 
-/// Samples per period of the vibration, at least: only harmonics from the 126th on fold back into the band.
-const SAMPLES_PER_SLOW_PERIOD: f64 = 128.0;
-
-/// Largest number of samples of a record.
+/// Largest number of samples of a record: with that of the undithered run and both padded spectra about a gigabyte. With more, a fast dither
+/// could exhaust the memory; with fewer, records would have to be shorter.
 const MOST_SAMPLES: f64 = 4_194_304.0;
 
-/// Least number of samples of a record.
+/// Least number of samples of a record: its halves then have lines to compare. A slow structure in a short record takes more samples than it
+/// needs, which cost nothing.
 const LEAST_SAMPLES: f64 = 256.0;
-
-/// Lines of the unpadded record, or of its halves, between the line of a dither and the end of the band: the window spreads a
-/// tone over two on each side.
-const WINDOW_REACH: f64 = 4.0;
 
 /// The samples of both records.
 #[derive(Clone, Copy, Debug)]

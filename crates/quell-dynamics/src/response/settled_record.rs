@@ -154,13 +154,17 @@ impl SettledRecord {
         if !self.on_motion && !is_settled && is_known {
             let tolerance = motion.run_tolerance(plan.tolerance);
             let from = self.ending.record_from(motion, tolerance, &self.settled)?;
-            let mut meters = RunMeters::new(motion, &plan.row);
-            let again = recorded(motion, plan, grid, &from, &mut meters)?;
-            if self.ending.is_rest() {
+            let again = if self.ending.is_rest() {
+                let mut meters = RunMeters::new(motion, &plan.row);
+                let again = recorded(motion, plan, grid, &from, &mut meters)?;
                 self.contacts = meters.contacts.means().unwrap_or_default();
                 self.inputs = meters.inputs.costs().unwrap_or_default();
                 self.observed = meters.row;
-            }
+                again
+            } else {
+                // Its means are those of a period already.
+                recorded(motion, plan, grid, &from, &mut ())?
+            };
             self.spectrum = spectrum_of(&again.samples, grid.step);
             (self.samples, self.rates, self.end) = (again.samples, again.rates, again.end);
             self.on_motion = true;

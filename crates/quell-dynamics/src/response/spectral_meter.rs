@@ -11,10 +11,14 @@ use crate::simulation::Segment;
 
 /// Samples per period of the fastest dither, at least: its seventh harmonic stays below
 /// the Nyquist frequency.
-const SAMPLES_PER_DITHER_PERIOD: f64 = 16.0;
+pub(super) const SAMPLES_PER_DITHER_PERIOD: f64 = 16.0;
 
-/// Samples per slow period, at least.
-const SAMPLES_PER_SLOW_PERIOD: f64 = 128.0;
+/// Samples per slow period, at least: only harmonics from the 126th on fold back into the band.
+pub(super) const SAMPLES_PER_SLOW_PERIOD: f64 = 128.0;
+
+/// Lines of the unpadded record, or of its halves, between the line of a dither and the end of the band: the window spreads a
+/// tone over two on each side.
+pub(super) const WINDOW_REACH: f64 = 4.0;
 
 /// Cells per slow period in which the low band is sampled: the band ends below a quarter of
 /// their Nyquist frequency, 4.
@@ -88,7 +92,7 @@ impl SpectralMeter {
             band: LowBand::new(sampling.count, sampling.step, decimation),
             band_end: band_end_of_mass(
                 belt,
-                4.0 * sampling.per_slow_period as f64 / sampling.count as f64,
+                WINDOW_REACH * sampling.per_slow_period as f64 / sampling.count as f64,
             ),
         }
     }

@@ -1,6 +1,5 @@
 //! `basins`: the motion on which each start ends.
 
-use crate::run::system::attractor::in_words;
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
@@ -13,6 +12,7 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::basins::{Basins, Portrait, Share, quiescence};
+use crate::run::system::attractor::in_words;
 use crate::run::system::in_units;
 use crate::study::{SystemSetup, SystemStudy};
 

@@ -1,8 +1,8 @@
 //! `bifurcation`: the motion along a parameter, swept up and down.
 
-use quell_dynamics::attractor::MotionKind;
 use std::fmt::Write as _;
 
+use quell_dynamics::attractor::MotionKind;
 use serde_json::Value as Json;
 
 use super::Presented;

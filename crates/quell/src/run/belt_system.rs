@@ -41,18 +41,13 @@ fn warned(study: &BeltStudy, warnings: Vec<String>) -> Result<SystemStudy, Failu
         actuator: study.actuator_in_units(),
         design: study.design_in_units(),
         tolerance: Some(study.solver().tolerance),
-        record: recorded(study),
+        record: recorded(study, unit_of_time(study)),
         time: None,
     }))
 }
 
 /// The belt as a system in the numbers of the equations, without what its study has in units.
 pub(crate) fn dimensionless(study: &BeltStudy) -> SystemStudy {
-    let own = RecordSettings {
-        settle: Some(study.solver().settle),
-        length: Some(TAU * f64::from(study.solver().record_periods)),
-        band: None,
-    };
     study.as_system(DescribedSystem {
         system: study.belt().system(),
         units: UnitSystem::None,
@@ -63,7 +58,7 @@ pub(crate) fn dimensionless(study: &BeltStudy) -> SystemStudy {
         actuator: None,
         design: None,
         tolerance: Some(study.solver().tolerance),
-        record: own,
+        record: recorded(study, 1.0),
         time: None,
     })
 }
@@ -81,9 +76,13 @@ fn initial(study: &BeltStudy, in_units: impl Fn(f64) -> f64) -> SystemStart {
     }
 }
 
-/// The record of a response, in these units.
-fn recorded(study: &BeltStudy) -> RecordSettings {
-    let one = study.scales().map_or(1.0, |scales| scales.to_units(Quantity::Time, 1.0));
+/// The unit of time of the equations in that of the system.
+fn unit_of_time(study: &BeltStudy) -> f64 {
+    study.scales().map_or(1.0, |scales| scales.to_units(Quantity::Time, 1.0))
+}
+
+/// The record of a response; `one` is the unit of time of the equations.
+fn recorded(study: &BeltStudy, one: f64) -> RecordSettings {
     let Solver { settle, record_periods, .. } = *study.solver();
     RecordSettings {
         settle: Some(one * settle),

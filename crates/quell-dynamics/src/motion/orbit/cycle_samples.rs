@@ -1,12 +1,13 @@
 //! One period of a periodic motion of a system: samples, exact extremes, and the means of its contacts.
 
+use quell_model::System;
+
 use crate::motion::orbit::MotionOrbit;
 use crate::motion::{
     ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionObserver,
     MotionSegment, MotionStart,
 };
 use crate::simulation::ORDER;
-use quell_model::System;
 
 /// Number of sampling steps in a period.
 const SAMPLES: usize = 1200;

@@ -1,8 +1,9 @@
 //! How near a periodic motion passes to a state.
 
-use crate::motion::{MOTION_TOLERANCE, Motion, MotionObserver, MotionSegment, MotionStart};
 use quell_model::System;
 use quell_numerics::roots::{Closeness, minimise};
+
+use crate::motion::{MOTION_TOLERANCE, Motion, MotionObserver, MotionSegment, MotionStart};
 
 /// Places in a segment between which the distance is looked at before it is minimised. A minimum narrower than their distance would be
 /// missed, and one motion counted as two.

@@ -15,14 +15,14 @@ mod starts;
 #[cfg(test)]
 mod tests;
 
-use quell_dynamics::attractor::{
-    EndOfRun, NoEnd, SystemAttractor, ends_of_runs, judged_mass, measured_of_one_mass,
-    starts_of_mass,
-};
 use std::sync::atomic::Ordering;
 
 use quell_dynamics::attractor::{
     AttractorSettings, BasinLabel, Patience, Settled, gather, settle_many,
+};
+use quell_dynamics::attractor::{
+    EndOfRun, NoEnd, SystemAttractor, ends_of_runs, judged_mass, measured_of_one_mass,
+    starts_of_mass,
 };
 use quell_dynamics::response::dither_reaches_the_band;
 use quell_dynamics::simulation::{Stalled, within};

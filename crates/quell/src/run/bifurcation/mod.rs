@@ -4,9 +4,9 @@
 mod answer;
 mod shared;
 
-use quell_dynamics::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
 use std::sync::atomic::Ordering;
 
+use quell_dynamics::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
 use quell_dynamics::simulation::within;
 
 use super::protocol::Protocol;
@@ -20,6 +20,7 @@ use crate::complaint::{Complaint, Failure};
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::study::{ParameterId, SystemStudy};
 use crate::sweep::Running;
+
 pub use answer::words;
 pub use shared::{SweepDirection, SweepRequest};
 use shared::{directions, ranges};

@@ -1,10 +1,10 @@
 //! `orbit`: the base response under dither, a periodic motion near a state, or the one on which a run ends, with its
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
-use quell_dynamics::motion::orbit::CycleSamples;
 use quell_dynamics::motion::orbit::{
-    BASE_STEPS, CycleSearch, MotionOrbit, NamedStart, NoMotionOrbit, SettledMotion, TriedStart,
-    base_motion, limit_cycles, motion_near, search_cycle, settled, sliding_verdict, usual_starts,
+    BASE_STEPS, CycleSamples, CycleSearch, MotionOrbit, NamedStart, NoMotionOrbit, SettledMotion,
+    TriedStart, base_motion, limit_cycles, motion_near, search_cycle, settled, sliding_verdict,
+    usual_starts,
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::within;

@@ -20,7 +20,7 @@ use super::system::start::{duration, start_in_words, start_of};
 use super::system::{failed, frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::study::SystemStudy;
-use crate::words::listed;
+use crate::words::{digits, listed};
 
 pub use band::InBand;
 
@@ -110,26 +110,34 @@ pub(crate) fn plan_of(
 
 /// Why a response could not be measured.
 pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRefused) -> Failure {
-    let record = |allowed: String| match study.record().length {
+    let record = |bound: &str, limit: f64, why: &str| match study.record().length {
+        // The study counts slow periods.
         Some(length) if length == plan.length => {
-            let key = "solver.record_periods";
             let slow = study.system().one_averaged_mass().map_or(1.0, |mass| TAU / mass.rate());
-            Complaint::new(Fault::Value, key, Origin::Whole, (length / slow).round(), allowed)
+            let allowed = format!("{bound} {}, {why}", digits(limit / slow));
+            let periods = digits(length / slow);
+            Complaint::new(Fault::Value, "solver.record_periods", Origin::Whole, periods, allowed)
                 .into()
         }
-        _ => Complaint::option("--record", plan.length, allowed).into(),
+        _ => {
+            let limit = in_units(study.units(), Quantity::Time, limit);
+            let allowed = format!("a record of {bound} {limit}, {why}");
+            Complaint::option("--record", plan.length, allowed).into()
+        }
     };
     match why {
         ResponseRefused::Immobile(why) => failed("response", why),
         ResponseRefused::Stopped(stopped) => failed_run("response", study.system(), &stopped),
-        ResponseRefused::TooLong { most } => record(format!(
-            "a record of at most {}, with all the samples that are kept (by default it is {RECORD_PERIODS} periods of the slowest motion)",
-            in_units(study.units(), Quantity::Time, most)
-        )),
-        ResponseRefused::TooShort { least } => record(format!(
-            "a record of more than {}, of which a line lies in the band of slow vibration",
-            in_units(study.units(), Quantity::Time, least)
-        )),
+        ResponseRefused::TooLong { most } => record(
+            "at most",
+            most,
+            &format!(
+                "with all the samples that are kept (by default it is {RECORD_PERIODS} periods of the slowest motion)"
+            ),
+        ),
+        ResponseRefused::TooShort { least } => {
+            record("more than", least, "of which a line lies in the band of slow vibration")
+        }
     }
 }
 
