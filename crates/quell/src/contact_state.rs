@@ -189,11 +189,6 @@ pub(crate) fn averaged_without_states(
     without_states(system, Some((&fast, lowest)))
 }
 
-/// Whether an average of the law of a belt without its state differs from that of its contact, or the small motions about it do.
-pub(crate) fn differs_from_rigid(belt: &Belt) -> bool {
-    belt.friction().bristles().is_some() || rigid_average(belt, belt.belt_velocity()).is_some()
-}
-
 /// The warning that averages are a start alone, where the exact answers next to them know the state of the contact.
 pub(crate) fn averages_are_a_start(because: &str) -> String {
     format!(

@@ -18,6 +18,15 @@ enum FieldUnits {
     System(UnitSystem),
 }
 
+/// The unit of a rate of a system.
+pub(crate) fn rate_unit(units: UnitSystem) -> &'static str {
+    match units {
+        UnitSystem::None => "1 (per unit of time)",
+        // Both systems of units have the second.
+        _ => "1/s",
+    }
+}
+
 /// An object under construction.
 #[derive(Clone, Debug)]
 pub struct Fields {
@@ -119,9 +128,7 @@ impl Fields {
         match self.of {
             FieldUnits::Scaled(None) => (1.0, "ω₀"),
             FieldUnits::Scaled(Some(scales)) => (scales.angular_frequency(), "1/s"),
-            FieldUnits::System(UnitSystem::None) => (1.0, "1 (per unit of time)"),
-            // Both systems of units have the second.
-            FieldUnits::System(_) => (1.0, "1/s"),
+            FieldUnits::System(units) => (1.0, rate_unit(units)),
         }
     }
 

@@ -3,16 +3,8 @@
 //! Averages reach v₀ plus the largest fast velocity of the dither. For runs the slip is measured: verbs that keep a record
 //! use the record; those that report attractors and orbits run each of them again for a few periods, and every start for one.
 
-use std::f64::consts::TAU;
-
-use quell_dynamics::simulation::{
-    DEFAULT_TOLERANCE, LargestSlip, Observer, SimulationRun, Start, simulate_many,
-};
 use quell_linear::averaging::{Averaging, DitheredContact, FastMotion};
 use quell_model::{Belt, Contact, System};
-
-/// Time for which a start is observed: its first slow period, in which a decaying transient is largest.
-pub(crate) const OF_START: f64 = TAU;
 
 /// Warnings about contacts of a system whose slip leaves the range of their law; `dithered` has their fast motion.
 pub(crate) fn outside_of_laws(
@@ -30,22 +22,6 @@ pub(crate) fn outside_of_laws(
             at_contact(contact, slip, &in_words)
         })
         .collect()
-}
-
-/// Largest slip speed of each run up to `length` after its start, computed in one batch; 0 if the law has no range.
-pub(crate) fn of_starts(cases: &[(&Belt, Start)], length: f64) -> Vec<f64> {
-    let mut slips: Vec<LargestSlip> = cases.iter().map(|(belt, _)| LargestSlip::of(belt)).collect();
-    let runs = cases
-        .iter()
-        .zip(&mut slips)
-        .filter(|(_, slip)| slip.watches())
-        .map(|(&(belt, start), slip)| {
-            let observer: &mut dyn Observer = slip;
-            SimulationRun { belt, start, until: start.time + length, observer }
-        })
-        .collect();
-    simulate_many(runs, DEFAULT_TOLERANCE);
-    slips.into_iter().map(|slip| slip.speed).collect()
 }
 
 /// The largest fast slip velocity at the belt velocity, at the finite R of the study; in the limit R → ∞ where that has none.

@@ -25,7 +25,7 @@ fn good(text: &str) -> DiscStudy {
 }
 
 fn computed(study: &DiscStudy, quantity: &str) -> quell::run::map::FinishedMap {
-    let quantity = MapQuantity::named_for("disc", quantity, "--quantity").expect("a quantity");
+    let quantity = MapQuantity::named(quantity, "--quantity").expect("a quantity");
     let plan = Plan::new(study, &[quantity]).expect("axes");
     let stop = std::sync::atomic::AtomicBool::new(false);
     map(plan, None, Running { threads: Some(1), stop: &stop, progress: &() }).expect("computed")

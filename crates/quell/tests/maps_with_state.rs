@@ -10,7 +10,7 @@ use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
 use quell::run::response::ResponseRequest;
 use quell::run::thresholds::ThresholdsRequest;
-use quell::sweep::{MapQuantity, Plan, Running};
+use quell::sweep::{MapQuantity, Plan, QUANTITIES, Running};
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {
@@ -25,10 +25,10 @@ fn warnings(found: &Json) -> String {
     found["warnings"].to_string()
 }
 
-fn map(text: &str, kind: &str, quantities: &[&str]) -> Json {
+fn map(text: &str, quantities: &[&str]) -> Json {
     let asked: Vec<_> = quantities
         .iter()
-        .map(|name| MapQuantity::named_for(kind, name, "--quantity").expect("a quantity"))
+        .map(|name| MapQuantity::named(name, "--quantity").expect("a quantity"))
         .collect();
     let plan = Plan::new(study(text), &asked).expect("a plan");
     let never = AtomicBool::new(false);
@@ -102,7 +102,7 @@ fn points_of_systems_are_the_answers_of_the_verbs() {
         "undithered-amplitude",
     ];
     for law in LAWS {
-        let found = map(&(system(law, 1.0) + &axis("dither.amplitude")), "system", &quantities);
+        let found = map(&(system(law, 1.0) + &axis("dither.amplitude")), &quantities);
         for (point, amplitude) in AMPLITUDES.into_iter().enumerate() {
             let one = verbs(&study(&system(law, amplitude)));
             let stability = one.stability().expect("averages").json();
@@ -169,7 +169,7 @@ fn points_of_belts_are_the_answers_of_the_verbs() {
     let names: Vec<String> = of_response.iter().map(|name| name.replace('_', "-")).collect();
     let quantities: Vec<&str> = names.iter().map(String::as_str).chain(averaged).collect();
     for law in LAWS {
-        let found = map(&(belt(law, 1.0) + &axis("dither.amplitude")), "belt", &quantities);
+        let found = map(&(belt(law, 1.0) + &axis("dither.amplitude")), &quantities);
         for (point, amplitude) in AMPLITUDES.into_iter().enumerate() {
             let one = verbs(&study(&belt(law, amplitude)));
             let response = one.response(&ResponseRequest::default()).expect("a response").json();
@@ -177,8 +177,9 @@ fn points_of_belts_are_the_answers_of_the_verbs() {
                 assert_same(&found, fact, point, &response[fact]);
             }
             let (contact, dither) = (&response["contacts"][0], &response["dithers"][0]);
+            let end = one.attractor(&AttractorRequest::default()).expect("an end").json();
             for (variable, fact) in [
-                ("stick_fraction", &contact["stick_fraction"]),
+                ("stick_fraction", &end["attractor"]["contacts"][0]["stick_fraction"]),
                 ("mean_friction", &contact["mean_friction"]),
                 ("minimum_normal_load", &contact["least_normal"]),
                 ("dither_power", &dither["power"]),
@@ -194,6 +195,8 @@ fn points_of_belts_are_the_answers_of_the_verbs() {
             for (variable, fact) in [
                 ("verdict", &stability["verdict"]),
                 ("criterion", &stability["criterion"]),
+                ("growth", &stability["growth_rate"]),
+                ("critical_amplitude", &stability["critical_amplitudes"][0]["amplitude"]),
                 ("limit_verdict", &limit["verdict"]),
                 ("limit_criterion", &limit["criterion"]),
                 ("limit_growth", &limit["growth_rate"]),
@@ -204,31 +207,61 @@ fn points_of_belts_are_the_answers_of_the_verbs() {
                 assert_eq!(status, "without_state", "{variable}: {found}");
             }
         }
-        // Both by a closed form of the criterion, the verb by eigenvalues; amplitudes are over the frequency.
-        for (point, amplitude) in AMPLITUDES.into_iter().enumerate() {
-            let stability =
-                verbs(&study(&belt(law, amplitude))).stability().expect("averages").json();
-            let critical = &stability["critical_amplitudes"][0]["amplitude"];
-            for (variable, fact, unit) in
-                [("growth", &stability["growth_rate"], 1.0), ("critical_amplitude", critical, 10.0)]
-            {
-                let value = unit * number(&found[variable][point]);
-                assert!((value / number(fact) - 1.0).abs() < 1e-13, "{variable}: {value} {fact}");
-                assert_eq!(found[format!("{variable}_status").as_str()][point], "without_state");
-            }
-        }
         assert_eq!(found["stick_fraction_status"][0] == "never_sticks", law.0.is_empty());
         assert!(warnings(&found).contains("without_state"), "{}", warnings(&found));
     }
+}
+
+/// Every quantity of a belt is one of the same mass as a system, with the same numbers.
+#[test]
+fn a_belt_and_its_system_have_the_same_map() {
+    let law = LAWS[0].1;
+    let bare = (belt(("", law), 1.0), system(("", law), 1.0));
+    // The record of a belt is that of its `[solver]`; a system has 200 and 60 periods of the slowest motion.
+    let belt = bare.0.replace("settle = 150\nrecord_periods = 12", "settle = 1256.6370614359172");
+    let all: Vec<&str> = QUANTITIES.iter().copied().flatten().map(|one| one.name).collect();
+    let [one, other] = [belt, bare.1].map(|text| map(&(text + &axis("dither.amplitude")), &all));
+    assert_eq!(one["counts"], other["counts"]);
+    // An axis is in the unit of its key.
+    let object = one.as_object().expect("an object");
+    for (name, value) in object.iter().filter(|(name, _)| *name != "axes") {
+        let point = |found: &Json, at: usize| found[name][at].as_f64();
+        for at in 0..AMPLITUDES.len() {
+            match point(&one, at).zip(point(&other, at)) {
+                Some((a, b)) => assert!((a - b).abs() <= 1e-9 * b.abs(), "{name}: {a} {b}"),
+                None => assert_eq!(value, &other[name], "{name}"),
+            }
+        }
+    }
+}
+
+/// A quantity whose needs a study does not meet is refused with those that it has.
+#[test]
+fn quantities_are_for_studies_that_meet_their_needs() {
+    let two = system(LAWS[0], 1.0)
+        .replace("coordinates = [\"x\"]", "coordinates = [\"x\", \"y\"]")
+        .replace("mass = [1.0]", "mass = [1.0, 2.0]")
+        .replace("[[0.02]]", "[[0.02, 0.0], [0.0, 0.02]]")
+        .replace("[[1.0]]", "[[2.0, -1.0], [-1.0, 2.0]]");
+    let refused = |text: &str, name: &str| {
+        let quantity = MapQuantity::named(name, "--quantity").expect("a quantity");
+        let axis = axis("dither.amplitude");
+        Plan::new(study(&(text.to_owned() + &axis)), &[quantity]).expect_err("refused").allowed
+    };
+    let why = refused(&two, "limit-verdict");
+    assert!(why.starts_with("for a study of one mass"), "{why}");
+    assert!(why.contains("quench-amplitude") && !why.contains("limit-growth"), "{why}");
+    let found = map(&(two + &axis("dither.amplitude")), &["mean-friction", "verdict"]);
+    assert!(found["mean_friction"][0].is_number(), "{found}");
 }
 
 /// A stiff slider adheres for so short a part of the dither that the average of the rigid law holds, and no point is marked.
 #[test]
 fn stiff_sliders_are_not_marked() {
     let stiff = ("tangential_stiffness = 3e4\n", LAWS[0].1);
-    let found = map(&(belt(stiff, 1.0) + &axis("dither.amplitude")), "belt", &["growth"]);
+    let found = map(&(belt(stiff, 1.0) + &axis("dither.amplitude")), &["growth"]);
     assert_eq!(found["growth_status"], serde_json::json!(["known", "known"]), "{found}");
-    let found = map(&(system(stiff, 1.0) + &axis("dither.amplitude")), "system", &["growth"]);
+    let found = map(&(system(stiff, 1.0) + &axis("dither.amplitude")), &["growth"]);
     assert_eq!(found["growth_status"], serde_json::json!(["known", "known"]), "{found}");
 }
 

@@ -62,7 +62,7 @@ fn a_verdict_about_an_opened_contact_is_conditional() {
 
 fn map(text: &str, quantity: &str) -> Json {
     let study = study(text);
-    let asked = MapQuantity::named_for("system", quantity, "--quantity").expect("a quantity");
+    let asked = MapQuantity::named(quantity, "--quantity").expect("a quantity");
     let plan = Plan::new(&study, &[asked]).expect("a plan");
     let never = AtomicBool::new(false);
     let running = Running { threads: Some(1), stop: &never, progress: &() };
@@ -201,7 +201,7 @@ fn tables_and_maps_of_systems_name_their_units() {
     assert!(text_of(stability.as_ref()).contains("frequency |Im λ|"));
     let axis = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [1, 2]\n";
     let si = text.replace("[system]\n", "[system]\nunits = \"SI\"\n");
-    for (text, rate, force) in [(&text, "1/time", "force"), (&si, "1/s", "N")] {
+    for (text, rate, force) in [(&text, "1 (per unit of time)", "1"), (&si, "1/s", "N")] {
         let found = map(&(text.clone() + axis), "growth");
         assert_eq!(found["units"]["growth"], rate);
         let found = map(&(text.clone() + axis), "critical-amplitude");

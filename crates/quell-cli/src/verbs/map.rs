@@ -10,7 +10,7 @@ use quell::output::Output;
 use quell::picture;
 use quell::run::map::run as map;
 use quell::store::Store;
-use quell::sweep::{Grid, MOST_THREADS, MapQuantity, Plan, QUANTITIES, Running};
+use quell::sweep::{Grid, MOST_THREADS, MapQuantity, Needs, Plan, QUANTITIES, Running};
 use quell::table_file::TableFormat;
 use quell::{Complaint, Failure, Fault, Origin};
 
@@ -49,10 +49,10 @@ pub(crate) struct Arguments {
 /// The list of quantities in the help.
 fn quantities() -> String {
     let mut text = String::new();
-    for of_kind in QUANTITIES {
-        let kind = of_kind.first().map_or("", |quantity| quantity.kind);
-        let _ = writeln!(text, "Quantities of a {kind}:");
-        for quantity in *of_kind {
+    for needs in Needs::ALL {
+        let _ = writeln!(text, "Quantities of {}:", needs.about());
+        let all = QUANTITIES.iter().copied().flatten();
+        for quantity in all.filter(|quantity| quantity.needs == *needs) {
             let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
         }
     }
@@ -71,13 +71,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    // The quantities available depend on the kind of the study.
-    let kind = study.as_ref().map_or("", |study| study.kind().name());
-    let names = if study.is_some() { arguments.quantities.as_slice() } else { &[] };
-    let asked: Vec<&'static MapQuantity> = names
-        .iter()
-        .filter_map(|name| complaints.take(MapQuantity::named_for(kind, name.trim(), "--quantity")))
-        .collect();
+    let names = arguments.quantities.iter().map(|name| name.trim());
+    let asked: Vec<&'static MapQuantity> =
+        names.filter_map(|name| complaints.take(MapQuantity::named(name, "--quantity"))).collect();
     let threads = complaints.take(threads(arguments.threads.as_deref()));
     let keep = complaints.take(keep(arguments, &inputs));
     let shard = arguments.shard.as_deref().map(|text| shard::read(text, arguments.plot.asked()));

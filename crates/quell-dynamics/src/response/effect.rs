@@ -1,18 +1,13 @@
 //! The effect of a dither on a vibration, as one word.
 //!
-//! Two facts decide: whether the undithered run from this start keeps vibrating (the cycle map, exactly), and where the dithered
-//! run settles ([`reached`]: on the base response, elsewhere, or unknown). The residual vibration E of the record quantifies any
-//! remaining vibration; a record that still changes does not overrule where its run settles.
+//! Two facts decide: whether the undithered run from this start keeps vibrating (of one mass by its cycle map, exactly), and where the
+//! dithered run ends ([`SystemEnding`](super::SystemEnding), by the judge of every verb). The residual vibration E of the record
+//! quantifies any remaining vibration; a record that still changes does not overrule where its run ends.
 
 use std::fmt;
 
-use quell_model::Belt;
-
-use super::measure::{Compared, Undefined};
+use super::measure::Undefined;
 use super::record_lines::RecordLines;
-use crate::attractor::{Reached, StroboscopicSection, reached};
-use crate::orbit::NoOrbit;
-use crate::simulation::Start;
 
 /// A response with less than this fraction of the undithered vibration is quenched.
 pub const QUENCHED: f64 = 0.01;
@@ -103,54 +98,6 @@ impl fmt::Display for Uncertain {
 }
 
 impl std::error::Error for Uncertain {}
-
-/// Where the dithered run of a case settles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum RunEnding {
-    /// On the base response, elsewhere, or not settled.
-    Reached(Reached),
-    /// It was not found, for this reason.
-    Unknown(NoOrbit),
-}
-
-impl RunEnding {
-    /// For the run of a belt from a start.
-    pub fn of(belt: &Belt, start: Start) -> Self {
-        match reached(belt, start) {
-            Ok(reached) => Self::Reached(reached),
-            Err(why) => Self::Unknown(why),
-        }
-    }
-
-    /// Whether no slow motion remains except that forced by the dither itself.
-    fn is_quiet(self) -> bool {
-        matches!(self, Self::Reached(reached) if reached.is_quiet() == Some(true))
-    }
-}
-
-/// The effect of a belt's dither from a start, from the measurements and from where the run settles.
-pub fn effect(belt: &Belt, compared: &Compared, ending: RunEnding) -> Effect {
-    if belt.dithers().iter().all(|dither| dither.amplitude == 0.0) {
-        return Effect::Unknown(Uncertain::NoDither);
-    }
-    let quiet_without = match compared.residual_vibration() {
-        Err(why) if why.is_quiet() => true,
-        Err(why) => return Effect::Unknown(Uncertain::Undithered(why)),
-        Ok(_) => false,
-    };
-    if ending.is_quiet()
-        && StroboscopicSection::of(belt).is_ok_and(|section| !section.reaches_the_band())
-    {
-        return if quiet_without { Effect::Quiet } else { Effect::Quenches };
-    }
-    let vibrations = Vibrations {
-        dithered: compared.dithered.record(),
-        undithered: compared.undithered.record(),
-        quiet_without,
-        quiet_with: ending.is_quiet(),
-    };
-    vibrations.effect()
-}
 
 /// The vibrations with and without dither that decide an effect, of any structure.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -126,11 +126,14 @@ impl Compared {
     /// # Errors
     /// Why E is undefined.
     pub fn residual_vibration(&self) -> Result<f64, Undefined> {
-        self.vibrates?;
-        if self.undithered.record().is_negligible() {
-            return Err(Undefined::UnditheredStill);
-        }
+        self.vibrates_in_band()?;
         Ok(self.dithered.lines.whole / self.undithered.lines.whole)
+    }
+
+    /// Whether the undithered run keeps vibrating in the band, or why E is undefined.
+    pub(super) fn vibrates_in_band(&self) -> Result<(), Undefined> {
+        let still = self.undithered.record().is_negligible();
+        self.vibrates.and(if still { Err(Undefined::UnditheredStill) } else { Ok(()) })
     }
 
     /// Whether M of the halves of the dithered record agree, and the run has left its first stick.

@@ -13,6 +13,7 @@ mod record_tones;
 mod refused;
 mod response_plan;
 mod settled_record;
+mod side_by_side;
 mod solver;
 mod spectral_meter;
 mod steady_response;
@@ -24,7 +25,7 @@ pub use crate::band::{
     BAND_END, dither_reaches_the_band, is_above_the_band, vibration_frequency,
     wave_reaches_the_band,
 };
-pub use effect::{Effect, QUENCHED, RunEnding, SUPPRESSED, Uncertain, Vibrations, effect};
+pub use effect::{Effect, QUENCHED, SUPPRESSED, Uncertain, Vibrations};
 pub use effective::{
     SteadyFriction, WindowMean, measured_effective_friction, steady_effective_friction,
 };
@@ -34,6 +35,7 @@ pub use record_lines::{HALVES_AGREE, HALVES_NEGLIGIBLE, RecordLines};
 pub use refused::ResponseRefused;
 pub use response_plan::ResponsePlan;
 pub use settled_record::SettledRecord;
+pub use side_by_side::{PlannedResponse, ResponseSummary, respond_many};
 pub use solver::Solver;
 pub use steady_response::{PEAK_FLOOR, SteadyResponse, UnditheredResponse, respond};
 pub use system_ending::SystemEnding;

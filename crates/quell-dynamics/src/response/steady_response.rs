@@ -77,7 +77,51 @@ pub fn respond(
     UnditheredResponse::new(system, start, plan)?.with_dither(system)
 }
 
+/// The effect of a dither: `vibrates` without it, or why not; the end of the run with it, with the upper end of the band; and what the
+/// records show.
+pub(super) fn effect_of(
+    has_dither: bool,
+    vibrates: Result<(), Undefined>,
+    (ending, band_end): (&SystemEnding, f64),
+    vibrations: &Vibrations,
+) -> Effect {
+    match vibrates {
+        _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
+        Err(why) if why.is_unknown() => Effect::Unknown(Uncertain::Undithered(why)),
+        _ if *ending == SystemEnding::Drift => Effect::Unknown(Uncertain::Drifts),
+        Ok(()) if ending.is_faster_than(band_end) => Effect::Quenches,
+        Err(_) if ending.is_faster_than(band_end) => Effect::Quiet,
+        _ => vibrations.effect(),
+    }
+}
+
 impl SteadyResponse {
+    /// Whether a dither acts.
+    pub fn has_dither(&self) -> bool {
+        self.effect != Effect::Unknown(Uncertain::NoDither)
+    }
+
+    /// Whether both runs settled, as far as E requires.
+    pub fn is_settled(&self) -> bool {
+        self.dithered_is_settled()
+            && (self.undithered_is_settled() || self.residual_vibration.is_err())
+    }
+
+    /// Whether the run with dither ends on an orbit, or M of the halves of its record agree.
+    pub fn dithered_is_settled(&self) -> bool {
+        if !self.has_dither() {
+            return self.undithered_is_settled();
+        }
+        let Vibrations { dithered, undithered, .. } = self.vibrations;
+        dithered.is_settled(undithered.whole()) && self.dithered.ending != SystemEnding::Drift
+    }
+
+    /// The same without dither.
+    pub fn undithered_is_settled(&self) -> bool {
+        self.vibrations.undithered.is_steady() && self.undithered.ending != SystemEnding::Drift
+            || self.residual_vibration.is_err_and(Undefined::is_quiet)
+    }
+
     /// Largest slip speed of a contact in both runs, 0 where its law has no range.
     pub fn largest_slip(&self, contact: usize) -> f64 {
         self.dithered.largest_slip[contact].max(self.undithered.largest_slip[contact])
@@ -148,14 +192,7 @@ impl<'a> UnditheredResponse<'a> {
             quiet_without: vibrates.is_err_and(Undefined::is_quiet),
             quiet_with: dithered.ending.motion().is_some_and(|found| found.quiet),
         };
-        let effect = match vibrates {
-            _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
-            Err(why) if why.is_unknown() => Effect::Unknown(Uncertain::Undithered(why)),
-            _ if dithered.ending == SystemEnding::Drift => Effect::Unknown(Uncertain::Drifts),
-            Ok(()) if dithered.ending.is_faster_than(band_end) => Effect::Quenches,
-            Err(_) if dithered.ending.is_faster_than(band_end) => Effect::Quiet,
-            _ => vibrations.effect(),
-        };
+        let effect = effect_of(has_dither, vibrates, (&dithered.ending, band_end), &vibrations);
         let steady = SteadySliding::new(&self.still).ok();
         Ok(SteadyResponse {
             residual_vibration: vibrates.map(|()| with.whole() / without.whole()),

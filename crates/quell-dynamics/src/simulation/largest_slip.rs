@@ -4,6 +4,7 @@ use quell_model::Belt;
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 use super::observer::{Observer, Segment};
+use super::{DEFAULT_TOLERANCE, SimulationRun, Start, simulate_many};
 
 /// Moments of a step at which slip is evaluated: a step is at most a few radians of the fastest oscillation, so that the
 /// largest slip is underestimated by less than a hundredth of the oscillation.
@@ -51,4 +52,16 @@ impl Work for Largest<'_, '_> {
         }
         self.0.slips_at(&since).into_iter().fold(0.0, |most, slip| slip.abs().max(most))
     }
+}
+
+/// Largest slip speed of each run up to `length` after its start, computed in one batch; 0 if the law has no range.
+pub fn largest_slips(cases: &[(&Belt, Start)], length: f64) -> Vec<f64> {
+    let mut slips: Vec<LargestSlip> = cases.iter().map(|(belt, _)| LargestSlip::of(belt)).collect();
+    let watched = cases.iter().zip(&mut slips).filter(|(_, slip)| slip.watches());
+    let runs = watched.map(|(&(belt, start), slip)| {
+        let observer: &mut dyn Observer = slip;
+        SimulationRun { belt, start, until: start.time + length, observer }
+    });
+    simulate_many(runs.collect(), DEFAULT_TOLERANCE);
+    slips.into_iter().map(|slip| slip.speed).collect()
 }

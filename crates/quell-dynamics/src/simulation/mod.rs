@@ -60,7 +60,7 @@ pub use clock::Clock;
 pub use event::{Event, EventKind};
 pub use extremes::Extremes;
 pub(crate) use forcing::{Forcing, harmonic_series};
-pub use largest_slip::LargestSlip;
+pub use largest_slip::{LargestSlip, largest_slips};
 pub(crate) use observer::shift;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
 pub use run::SimulationRun;

@@ -89,10 +89,9 @@ impl Watch for Watched {
 
 /// The plan of a map.
 pub(crate) fn plan(study: &Study, names: &[String]) -> Result<Plan, Failure> {
-    let kind = study.kind().name();
     let (mut asked, mut wrong) = (Vec::new(), Vec::new());
     for name in names {
-        match MapQuantity::named_for(kind, name.trim(), "quantity") {
+        match MapQuantity::named(name.trim(), "quantity") {
             Ok(quantity) => asked.push(quantity),
             Err(complaint) => wrong.push(*complaint),
         }

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use quell::schema::schema as front_door;
 use quell::study::UnitSystem;
 use quell::study::vocabulary::{self, DocumentKind};
-use quell::sweep::QUANTITIES;
+use quell::sweep::{Needs, QUANTITIES};
 
 use crate::convert;
 
@@ -31,9 +31,13 @@ pub(crate) fn keys() -> Vec<KeyTuple> {
     of_kind(DocumentKind::Belt).chain(of_kind(DocumentKind::Disc)).collect()
 }
 
-/// ("belt", "disc" or "system", name, description) of every quantity of a map.
+/// ("belt", "disc" or "system", name, description) of every quantity of a map; some are of one mass alone.
 #[pyfunction]
 pub(crate) fn quantities() -> Vec<(&'static str, &'static str, &'static str)> {
-    let all = QUANTITIES.iter().copied().flatten();
-    all.map(|quantity| (quantity.kind, quantity.name, quantity.about)).collect()
+    let of_kind = |kind: &'static str| {
+        let all = QUANTITIES.iter().copied().flatten();
+        let its = all.filter(move |quantity| kind != "disc" || quantity.needs == Needs::Sliding);
+        its.map(move |quantity| (kind, quantity.name, quantity.about))
+    };
+    ["belt", "disc", "system"].into_iter().flat_map(of_kind).collect()
 }

@@ -43,7 +43,7 @@ impl Presented<SystemSetup> for MeasuredResponse {
             ("with dither", &self.response.dithered),
             ("without dither", &self.response.undithered),
         ];
-        let first = usize::from(!self.has_dither());
+        let first = usize::from(!self.response.has_dither());
         for (name, record) in &records[first..] {
             let length = |value| with(Quantity::Displacement, value);
             let _ = writeln!(

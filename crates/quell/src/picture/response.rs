@@ -21,7 +21,7 @@ const DECADES: i32 = 5;
 /// The picture of a steady response: the end of the record and the spectrum, with and without dither.
 pub fn response(study: &SystemStudy, done: &MeasuredResponse) -> Figure {
     let (with, without) = (&done.response.dithered, &done.response.undithered);
-    let dithered = done.has_dither();
+    let dithered = done.response.has_dither();
     let start = start_in_words(study, &Vec::new());
     Figure::grid(
         1,

@@ -16,16 +16,21 @@ use crate::plot::{
     Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotRole, Points,
     Polyline, Size, Spread,
 };
-use crate::run::belt_system;
+use crate::run::belt_system::system_of;
 use crate::run::map::{FinishedMap, amplitude_and_other, boundaries_at};
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::study::{DiscStudy, Study};
-use crate::sweep::{Grid, GridAxis, Status, VariableArrays, VariableKind};
+use crate::sweep::{Grid, GridAxis, Status, Variable, VariableArrays, VariableKind};
 
 /// What a growth rate of one ω_ref is in the units in which a disc is answered.
 fn one_growth(study: &Study) -> f64 {
     let units = study.disc().ok().and_then(|study| DiscUnits::of(&study));
     units.and_then(|units| units.one("growth", "ω_ref")).map_or(1.0, |(one, _)| one)
+}
+
+/// Whether the values of a variable are growth rates, the real parts of eigenvalues.
+fn is_growth(variable: &Variable) -> bool {
+    variable.symbol.starts_with("Re")
 }
 
 /// Whether a variable is drawn only if no other quantity was requested.
@@ -108,21 +113,15 @@ fn picture(done: &FinishedMap, entry: &VariableArrays, over: &[Layer]) -> Mapped
                     .collect(),
             )
         }
-        VariableKind::Rate => MapKind::Growth(Spread::Linear),
         // Growth rates in tongues are 10⁻⁹ to 10⁻², decay rates about 10⁻².
-        VariableKind::DiscRate if variable.symbol.starts_with("Re") => {
+        VariableKind::Rate if is_growth(variable) && grid.study().disc().is_ok() => {
             MapKind::Growth(Spread::SignedLog(1e-5 * one_growth(grid.study())))
         }
+        VariableKind::Rate if is_growth(variable) => MapKind::Growth(Spread::Linear),
         VariableKind::Number(_) if variable.name == "residual_vibration" => {
             MapKind::ResidualVibration
         }
-        VariableKind::SystemRate if variable.symbol.starts_with("Re") => {
-            MapKind::Growth(Spread::Linear)
-        }
-        VariableKind::DiscRate
-        | VariableKind::SystemRate
-        | VariableKind::SystemNumber(_)
-        | VariableKind::Number(_) => MapKind::Number(Spread::Linear),
+        VariableKind::Rate | VariableKind::Number(_) => MapKind::Number(Spread::Linear),
     };
     let name = match kind {
         MapKind::ResidualVibration => "residual vibration",
@@ -206,8 +205,7 @@ fn exact_curves(done: &FinishedMap) -> Vec<Layer> {
 
 /// Curves of thresholds in the plane of a map, in the units of its axes; none where the study has none.
 fn threshold_curves(grid: &Grid, request: &CurvesRequest) -> Vec<Vec<(f64, f64)>> {
-    let Ok(study) = grid.study().belt() else { return Vec::new() };
-    let Ok(system) = belt_system::of(&study, "thresholds") else { return Vec::new() };
+    let Ok(system) = system_of(grid.study()) else { return Vec::new() };
     let Ok(found) = curves::run(&system, request) else { return Vec::new() };
     let curves = found.found.curves.iter();
     curves

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use quell_dynamics::start::InitialState;
-use quell_model::units::{Quantity, UnitSystem};
+use quell_model::units::Quantity;
 
 use crate::complaint::Failure;
 use crate::study::{
@@ -22,6 +22,17 @@ pub(crate) fn of(study: &BeltStudy, verb: &str) -> Result<SystemStudy, Failure> 
     described(study)
 }
 
+/// The system of a belt, or a system itself.
+///
+/// # Errors
+/// A disc; a law whose numbers are out of their bounds in SI.
+pub(crate) fn system_of(study: &Study) -> Result<SystemStudy, Failure> {
+    match study.belt() {
+        Ok(belt) => described(&belt),
+        Err(_) => Ok(study.system().map_err(|complaint| *complaint)?),
+    }
+}
+
 /// The belt as a system in the units of a study that has units, otherwise in the numbers of the equations.
 ///
 /// # Errors
@@ -35,43 +46,26 @@ fn warned(study: &BeltStudy, warnings: Vec<String>) -> Result<SystemStudy, Failu
         system: study.system()?,
         units: study.units(),
         observe: vec![1.0],
-        initial: initial(study, |velocity| in_units(study, velocity)),
+        initial: initial(study),
         warnings,
         sizes: sizes(study),
         actuator: study.actuator_in_units(),
         design: study.design_in_units(),
         tolerance: Some(study.solver().tolerance),
-        record: recorded(study, unit_of_time(study)),
+        record: recorded(study),
         time: None,
     }))
 }
 
-/// The belt as a system in the numbers of the equations, without what its study has in units.
-pub(crate) fn dimensionless(study: &BeltStudy) -> SystemStudy {
-    study.as_system(DescribedSystem {
-        system: study.belt().system(),
-        units: UnitSystem::None,
-        observe: vec![1.0],
-        initial: initial(study, |velocity| velocity),
-        warnings: Vec::new(),
-        sizes: Vec::new(),
-        actuator: None,
-        design: None,
-        tolerance: Some(study.solver().tolerance),
-        record: recorded(study, 1.0),
-        time: None,
-    })
-}
-
-/// Where runs begin; `in_units` makes a velocity one of the system.
-fn initial(study: &BeltStudy, in_units: impl Fn(f64) -> f64) -> SystemStart {
+/// Where runs begin.
+fn initial(study: &BeltStudy) -> SystemStart {
     match study.initial() {
         InitialState::Rest => SystemStart::Rest,
         InitialState::Sliding => SystemStart::Sliding,
         InitialState::Squealing => SystemStart::Squealing,
         InitialState::Explicit { displacement, velocity } => {
             // The contact begins without load, as in `simulate`.
-            SystemStart::Values(vec![displacement, in_units(velocity), 0.0])
+            SystemStart::Values(vec![displacement, in_units(study, velocity), 0.0])
         }
     }
 }
@@ -81,8 +75,9 @@ fn unit_of_time(study: &BeltStudy) -> f64 {
     study.scales().map_or(1.0, |scales| scales.to_units(Quantity::Time, 1.0))
 }
 
-/// The record of a response; `one` is the unit of time of the equations.
-fn recorded(study: &BeltStudy, one: f64) -> RecordSettings {
+/// The record of a response.
+fn recorded(study: &BeltStudy) -> RecordSettings {
+    let one = unit_of_time(study);
     let Solver { settle, record_periods, .. } = *study.solver();
     RecordSettings {
         settle: Some(one * settle),

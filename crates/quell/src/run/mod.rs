@@ -36,7 +36,7 @@ pub mod response;
 mod sample_times;
 pub mod simulate;
 pub mod sketch;
-mod slip;
+pub(crate) mod slip;
 pub mod stability;
 pub mod system;
 pub mod thresholds;

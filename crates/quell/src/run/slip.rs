@@ -5,10 +5,12 @@ use std::f64::consts::TAU;
 use quell_dynamics::attractor::starts_of_mass;
 use quell_dynamics::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart};
 use quell_dynamics::response::vibration_frequency;
+use quell_dynamics::simulation::largest_slips;
 use quell_linear::pure_slip::period;
 use quell_model::{OneMass, System};
 
-use crate::range::{OF_START, of_starts};
+/// Time of the equations of one mass for which a start is observed: its first slow period, in which a decaying transient is largest.
+const OF_START: f64 = TAU;
 
 /// Periods of the vibration over which the slip of a motion of several masses is observed: the first ones, in which a transient is
 /// largest. Over fewer a slow beat could be missed, and with it a warning; more only take longer. One mass has no beat of its own: its first
@@ -16,7 +18,7 @@ use crate::range::{OF_START, of_starts};
 const SLOW_PERIODS: f64 = 4.0;
 
 /// The largest slip speeds so far.
-pub(in crate::run) struct SlipReached {
+pub(crate) struct SlipReached {
     /// Whether a law has a range that slip may leave.
     watches: bool,
     largest: Vec<f64>,
@@ -24,18 +26,18 @@ pub(in crate::run) struct SlipReached {
 
 impl SlipReached {
     /// Of a system, without motions yet.
-    pub(in crate::run) fn new(system: &System) -> Self {
+    pub(crate) fn new(system: &System) -> Self {
         let watches = system.contacts.iter().any(|contact| contact.friction.range().is_some());
         Self { watches, largest: vec![0.0; system.contacts.len()] }
     }
 
     /// Adds a motion of a system from a state at t = 0. One that stops early counts up to there.
-    pub(in crate::run) fn add(&mut self, system: &System, state: &[f64]) {
+    pub(crate) fn add(&mut self, system: &System, state: &[f64]) {
         self.add_all(system, &[state.to_vec()]);
     }
 
     /// Adds motions of a system from several states; those of one mass are computed in one batch.
-    pub(in crate::run) fn add_all(&mut self, system: &System, states: &[Vec<f64>]) {
+    pub(crate) fn add_all(&mut self, system: &System, states: &[Vec<f64>]) {
         if !self.watches {
             return;
         }
@@ -46,7 +48,7 @@ impl SlipReached {
     }
 
     /// Adds the largest slip speed of each contact in other motions.
-    pub(in crate::run) fn include(&mut self, speeds: &[f64]) {
+    pub(crate) fn include(&mut self, speeds: &[f64]) {
         for (largest, speed) in self.largest.iter_mut().zip(speeds) {
             *largest = speed.max(*largest);
         }
@@ -65,7 +67,7 @@ impl SlipReached {
     }
 
     /// The largest slip speed of each contact; 0 where no law has a range.
-    pub(in crate::run) fn largest(self) -> Vec<f64> {
+    pub(crate) fn largest(self) -> Vec<f64> {
         self.largest
     }
 }
@@ -76,5 +78,5 @@ fn largest_of_mass(system: &System, mass: &OneMass, states: &[Vec<f64>]) -> f64 
     let cases: Vec<_> = starts.iter().map(|start| (mass.belt(), *start)).collect();
     let length = period(system).map_or(OF_START, |period| OF_START.max(mass.rate() * period));
     // Its slip is that of the belt.
-    of_starts(&cases, length).into_iter().fold(0.0, f64::max)
+    largest_slips(&cases, length).into_iter().fold(0.0, f64::max)
 }

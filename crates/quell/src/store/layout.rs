@@ -15,7 +15,7 @@ use zarrs::metadata::v3::GroupMetadataV3;
 use super::identity::StudyTexts;
 use crate::cite::{Task, sources_of};
 use crate::dataset::readable;
-use crate::sweep::{Computation, Content, GridAxis, MISSING, MapArray, Plan, Status};
+use crate::sweep::{Content, GridAxis, MISSING, MapArray, Plan, Status};
 
 /// An array that is described and encoded here, and written by the store.
 pub(super) type Described = Array<()>;
@@ -154,27 +154,7 @@ fn reasons(meanings: &[(u8, &str)]) -> String {
 
 /// The sources of the computed quantities, one per line.
 fn references(plan: &Plan) -> String {
-    let used = |task: Task| {
-        plan.computations().iter().any(|computation| match computation {
-            Computation::Response
-            | Computation::ResponseWithCost
-            | Computation::ResponseWithEffect
-            | Computation::SystemResponse => task == Task::Response,
-            Computation::Criterion
-            | Computation::LimitCriterion
-            | Computation::CriticalAmplitudes
-            | Computation::LimitCriticalAmplitudes
-            | Computation::Quench
-            | Computation::DiscGrowth
-            | Computation::DiscGrowthUndithered
-            | Computation::SystemGrowth
-            | Computation::SystemGrowthUndithered
-            | Computation::SystemCritical
-            | Computation::SystemQuench
-            | Computation::SystemOrbit
-            | Computation::SystemEnd => task == Task::Stability,
-        })
-    };
+    let used = |task: Task| plan.quantities().iter().any(|quantity| quantity.task == task);
     let citations = sources_of(plan.grid().study()).citations;
     let cited: Vec<String> = citations
         .iter()

@@ -4,6 +4,22 @@
 //! at the end of the axis. Their shape depends on the study alone, never on the number of
 //! threads, so that a map can be resumed on another machine.
 
+/// Minimum number of chunks that a map should have: four for each of 32 threads.
+const CHUNKS: f64 = 128.0;
+
+/// Maximum seconds of a chunk: the work that an interruption may lose.
+const LONGEST: f64 = 2.0;
+
+/// Minimum seconds of a chunk: below, files cost more than points.
+const SHORTEST: f64 = 0.05;
+
+/// Number of points of a chunk that fills the SIMD lanes of the engine; fewer if they would take longer than a
+/// chunk should.
+const LANES_FULL: f64 = 64.0;
+
+/// Maximum number of points of a chunk.
+const MOST: f64 = 65_536.0;
+
 /// The division of a grid into chunks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chunks {
@@ -77,6 +93,18 @@ impl Chunks {
     }
 }
 
+/// Number of points of a chunk, for a map of `points` points that take `seconds` each.
+pub(super) fn points_per_chunk(points: usize, seconds: f64) -> usize {
+    let chunk = (points as f64 * seconds / CHUNKS).clamp(SHORTEST, LONGEST);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 1 and MOST"
+    )]
+    let most = (chunk / seconds).max(LANES_FULL.min(LONGEST / seconds)).clamp(1.0, MOST) as usize;
+    most
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,5 +143,19 @@ mod tests {
         assert_eq!(chunks.place(3), [1, 1]);
         assert_eq!(chunks.points(1), [(0, 4), (4, 9)]);
         assert_eq!(chunks.points(2), [(0, 10), (1, 11), (2, 12), (3, 13)]);
+    }
+
+    #[test]
+    fn chunks_are_many_where_points_are_dear_and_few_where_they_are_cheap() {
+        // 40 000 points of 10 ms: 200 points take two seconds.
+        assert_eq!(points_per_chunk(40_000, 0.01), 200);
+        // 1000 points of 10 ms: enough to fill the lanes, although that gives few chunks.
+        assert_eq!(points_per_chunk(1000, 0.01), 64);
+        // 1000 points of 0.1 s: two seconds.
+        assert_eq!(points_per_chunk(1000, 0.1), 20);
+        // Points that each take longer than a chunk should.
+        assert_eq!(points_per_chunk(10, 100.0), 1);
+        // 1000 points of 20 µs: one chunk.
+        assert!(points_per_chunk(1000, 2e-5) >= 1000);
     }
 }

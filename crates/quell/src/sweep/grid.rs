@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+use super::refine;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 use crate::study::{Axis, ParameterId, Study, Sweep};
 
@@ -51,15 +52,18 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid of a study whose axes have these values.
+    /// The grid of a study.
     ///
     /// # Errors
     /// A complaint if the study has no axis, two axes that set the same number, or more
     /// than [`MOST_POINTS`] points.
-    pub(super) fn with_values(
-        study: Study,
-        values: impl Fn(&Sweep) -> Vec<f64>,
-    ) -> Result<Self, Box<Complaint>> {
+    pub fn of(study: impl Into<Study>) -> Result<Self, Box<Complaint>> {
+        let study = study.into();
+        let disc = study.disc().ok();
+        let values = |sweep: &Sweep| match &disc {
+            Some(disc) => refine::values(disc, sweep),
+            None => sweep.axis.values().collect(),
+        };
         let sweeps = study.sweeps();
         if sweeps.is_empty() {
             let complaint =

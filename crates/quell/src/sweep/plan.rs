@@ -1,32 +1,34 @@
 //! The plan of a map: the grid, the quantities, the arrays and the chunks.
 
-use super::belt::SETTLED_NAME;
-use super::chunks::Chunks;
-use super::cost;
-use super::evaluate::Computation;
+use std::any::TypeId;
+
+use super::chunks::{Chunks, points_per_chunk};
 use super::grid::Grid;
-use super::kind;
-use super::quantity::MapQuantity;
+use super::map_quantity::MapQuantity;
+use super::points::{ChunkPoints, Subject};
+use super::quantity::SETTLED;
 use super::sheet::{Data, Sheet};
 use crate::complaint::Complaint;
-use crate::study::{Study, not_periodic, varies_in_time};
+use crate::study::{Study, varies_in_time};
 
 /// A map to be computed.
 #[derive(Clone, Debug)]
 pub struct Plan {
     grid: Grid,
     quantities: Vec<&'static MapQuantity>,
-    computations: Vec<Computation>,
     sheet: Sheet,
     chunks: Chunks,
 }
+
+/// Minimum seconds to set up and store a point.
+const POINT: f64 = 2e-5;
 
 impl Plan {
     /// A plan for the axes of a study. Any quantity of a steady response adds whether it
     /// has settled.
     ///
     /// # Errors
-    /// The complaint of [`Grid::of`].
+    /// The complaint of [`Grid::of`]; a quantity whose needs the study does not meet.
     pub fn new(
         study: impl Into<Study>,
         asked: &[&'static MapQuantity],
@@ -35,40 +37,24 @@ impl Plan {
         if let Some(table) = study.varies_by() {
             return Err(Box::new(varies_in_time("map", table)));
         }
-        if let Some(key) = study.noise()
-            && let Some(quantity) = asked.iter().find(|asked| !asked.computation.is_average())
-        {
-            return Err(Box::new(not_periodic(&format!("map --quantity {}", quantity.name), key)));
-        }
-        let mapped = kind::of(&study);
         for quantity in asked {
-            if !mapped.quantities().contains(quantity) {
-                MapQuantity::named_for(study.kind().name(), quantity.name, "--quantity")?;
-            }
+            quantity.accepts(&study)?;
         }
         let grid = Grid::of(&study)?;
         let mut quantities: Vec<&'static MapQuantity> = Vec::new();
-        let steady = asked.iter().any(|quantity| quantity.computation.is_response());
-        let settled = MapQuantity::named(SETTLED_NAME, "--quantity").ok().filter(|_| steady);
+        let settled = MapQuantity::named(SETTLED, "--quantity").ok();
+        let settled = settled.filter(|_| asked.iter().any(|quantity| quantity.is_of_response()));
         for quantity in asked.iter().copied().chain(settled) {
             if !quantities.contains(&quantity) {
                 quantities.push(quantity);
             }
         }
-        let mut computations = Vec::new();
-        for quantity in &quantities {
-            if !computations.contains(&quantity.computation) {
-                computations.push(quantity.computation);
-            }
-        }
-        let seconds = grid
-            .corner_studies()
-            .iter()
-            .map(|study| kind::of(study).seconds(&computations))
-            .fold(mapped.seconds(&computations), f64::max);
-        let chunks = Chunks::new(&grid.shape(), cost::points_per_chunk(grid.len(), seconds));
+        let corners = grid.corner_studies();
+        let subjects = corners.iter().chain([&study]).filter_map(Subject::of);
+        let seconds = subjects.map(|subject| seconds(&quantities, &subject)).fold(POINT, f64::max);
+        let chunks = Chunks::new(&grid.shape(), points_per_chunk(grid.len(), seconds));
         let sheet = Sheet::new(&study, &quantities);
-        Ok(Self { grid, quantities, computations, sheet, chunks })
+        Ok(Self { grid, quantities, sheet, chunks })
     }
 
     /// The points.
@@ -79,11 +65,6 @@ impl Plan {
     /// The quantities shown.
     pub fn quantities(&self) -> &[&'static MapQuantity] {
         &self.quantities
-    }
-
-    /// The computations that they need.
-    pub fn computations(&self) -> &[Computation] {
-        &self.computations
     }
 
     /// The arrays.
@@ -105,10 +86,20 @@ impl Plan {
     /// Computes some points, by their index in the grid.
     pub fn compute_points(&self, indices: impl Iterator<Item = usize>) -> Vec<Data> {
         let indices: Vec<usize> = indices.collect();
-        let mapped = kind::of(self.grid.study());
-        let points = mapped.compute(&self.grid, &indices, &self.computations);
-        self.sheet.fill(&points)
+        self.sheet.fill(&ChunkPoints::of(&self.grid, &indices))
     }
+}
+
+/// Estimated seconds of a point of these quantities: each computation is done once.
+fn seconds(quantities: &[&MapQuantity], subject: &Subject) -> f64 {
+    let mut known: Vec<TypeId> = Vec::new();
+    let each = quantities.iter().map(|quantity| {
+        let computation = (quantity.computation)();
+        let is_new = !known.contains(&computation);
+        known.push(computation);
+        if is_new { (quantity.seconds)(subject) } else { 0.0 }
+    });
+    POINT + each.sum::<f64>()
 }
 
 #[cfg(test)]
@@ -138,7 +129,7 @@ mod tests {
         .map(|name| MapQuantity::named(name, "--quantity").expect("a quantity"))
         .collect();
         let plan = Plan::new(&study, &asked).expect("two axes");
-        assert_eq!(plan.quantities().last().map(|last| last.name), Some(SETTLED_NAME));
+        assert_eq!(plan.quantities().last().map(|last| last.name), Some(SETTLED));
         let all = plan.compute_points(0..plan.grid().len());
         let backwards = plan.compute_points((0..plan.grid().len()).rev());
         let status = plan.sheet().entries()[0].status;

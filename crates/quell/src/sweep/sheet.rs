@@ -1,16 +1,13 @@
 //! The arrays of a map: their contents and values.
 //!
-//! Every variable gives an array of values, in a study in SI a second one in SI, and an array of
-//! statuses. If a number is unknown, its status gives the reason, and the value is a NaN that carries
+//! Every variable gives an array of values in the units of the study and an array of statuses. If a number is unknown, its status gives the reason, and the value is a NaN that carries
 //! the code of the status, or the word for "unknown". The fill values (the plain NaN, 255) mean
 //! "missing" and nothing else.
 
-use quell_model::units::Quantity;
-
-use super::evaluate::Computation;
-use super::mapped::{PointResults, PointScales};
-use super::quantity::{MapQuantity, Variable, VariableKind};
+use super::map_quantity::{MapQuantity, Variable, VariableKind};
+use super::points::ChunkPoints;
 use super::status::Status;
+use crate::fields::rate_unit;
 use crate::outcome::disc_units::DiscUnits;
 use crate::study::{Study, UnitSystem};
 
@@ -95,8 +92,6 @@ impl Data {
 pub struct VariableArrays {
     /// The variable.
     pub variable: Variable,
-    /// The computation that it needs.
-    pub computation: Computation,
     /// Its values.
     pub value: usize,
     /// Its statuses.
@@ -113,24 +108,12 @@ pub struct Sheet {
 impl Sheet {
     /// The arrays of `quantities` for a study.
     pub fn new(study: &Study, quantities: &[&MapQuantity]) -> Self {
-        let scaled = study.scales().is_some();
-        let units = match study.system() {
-            Ok(study) => study.units(),
-            Err(_) => study.file_units(),
-        };
-        let disc_units = study.disc().ok().and_then(|study| DiscUnits::of(&study));
+        let units = UnitNames::of(study);
         let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
-        let variables = quantities.iter().flat_map(|quantity| {
-            quantity.variables.iter().map(|variable| (variable, quantity.computation))
-        });
-        for (variable, computation) in variables {
+        for variable in quantities.iter().flat_map(|quantity| quantity.variables) {
             let name = variable.name;
             let content = match variable.kind {
-                VariableKind::Number(_)
-                | VariableKind::Rate
-                | VariableKind::DiscRate
-                | VariableKind::SystemRate
-                | VariableKind::SystemNumber(_) => Content::Numbers,
+                VariableKind::Number(_) | VariableKind::Rate => Content::Numbers,
                 VariableKind::Word { words, unknown } => {
                     let words = words.iter().chain([&unknown]).zip(0..);
                     let words = words.map(|(word, code)| (code, *word));
@@ -138,20 +121,15 @@ impl Sheet {
                 }
             };
             let state = Some(format!("{name}_status"));
-            let unit = match &disc_units {
-                Some(disc) if variable.kind == VariableKind::DiscRate => disc
-                    .one(name, &unit(variable.kind, units, scaled))
-                    .map_or_else(String::new, |(_, unit)| unit.to_owned()),
-                _ => unit(variable.kind, units, scaled),
-            };
-            let value = sheet.add(name.to_owned(), variable.about, unit, content, state.clone());
-            let states = variable.all_statuses(computation);
+            let unit = units.of_variable(variable);
+            let value = sheet.add(name.to_owned(), variable.about, unit, content, state);
+            let states = variable.all_statuses();
             let states = states.iter().map(|status| (status.code(), status.name())).collect();
             let about = format!("status of {name}: known, or why it is unknown");
             let content = Content::Codes(states);
             let name = format!("{name}_status");
             let status = sheet.add(name, &about, String::new(), content, None);
-            sheet.entries.push(VariableArrays { variable: *variable, computation, value, status });
+            sheet.entries.push(VariableArrays { variable: *variable, value, status });
         }
         sheet
     }
@@ -183,22 +161,13 @@ impl Sheet {
         self.fields.iter().map(|field| Data::missing(&field.content, points)).collect()
     }
 
-    /// The arrays of some points; `None` where the axis values do not form a valid study.
-    pub(super) fn fill(&self, points: &[Option<PointResults>]) -> Vec<Data> {
+    /// The arrays of some points.
+    pub(super) fn fill(&self, points: &ChunkPoints<'_>) -> Vec<Data> {
         let mut arrays = self.missing(0);
-        for point in points {
-            for entry in &self.entries {
-                let (value, scales) = match point {
-                    Some((scales, results)) => {
-                        let value = entry.variable.read(results);
-                        let known = |value: f64| results.qualification(entry.computation, value);
-                        (value.map(|value| (value, known(value))), *scales)
-                    }
-                    None => (Err(Status::InvalidStudy), PointScales::Own),
-                };
-                let factor = factor(entry.variable.kind, scales);
+        for entry in &self.entries {
+            for value in (entry.variable.read)(points) {
                 let (number, code, status) = match value {
-                    Ok((value, status)) => (value * factor, whole(value), status),
+                    Ok((value, status)) => (value, whole(value), status),
                     Err(status) => (unknown(status), unknown_word(entry.variable.kind), status),
                 };
                 arrays[entry.value].push(number, code);
@@ -218,11 +187,7 @@ fn unknown(status: Status) -> f64 {
 fn unknown_word(kind: VariableKind) -> u8 {
     match kind {
         VariableKind::Word { words, .. } => u8::try_from(words.len()).unwrap_or(MISSING),
-        VariableKind::Number(_)
-        | VariableKind::Rate
-        | VariableKind::DiscRate
-        | VariableKind::SystemRate
-        | VariableKind::SystemNumber(_) => MISSING,
+        VariableKind::Number(_) | VariableKind::Rate => MISSING,
     }
 }
 
@@ -236,36 +201,37 @@ fn whole(value: f64) -> u8 {
     value as u8
 }
 
-/// Unit of a variable in the units of the study; `scaled` says whether it has the scales of a belt.
-fn unit(kind: VariableKind, units: UnitSystem, scaled: bool) -> String {
-    match kind {
-        VariableKind::Number(quantity) => {
-            let own = units.unit(quantity).filter(|_| scaled && quantity.si_unit().is_some());
-            own.unwrap_or_else(|| quantity.scaled_unit()).to_owned()
-        }
-        VariableKind::Rate if scaled => "1/s".to_owned(),
-        VariableKind::Rate => "ω₀".to_owned(),
-        VariableKind::DiscRate => "ω_ref".to_owned(),
-        VariableKind::SystemRate if units == UnitSystem::None => "1/time".to_owned(),
-        // Both systems of units have the second.
-        VariableKind::SystemRate => "1/s".to_owned(),
-        VariableKind::SystemNumber(quantity) => {
-            let name = if quantity == Quantity::Force { "force" } else { "length" };
-            units.unit(quantity).unwrap_or(name).to_owned()
-        }
-        VariableKind::Word { .. } => String::new(),
-    }
+/// The units of a study's numbers, as every verb names them.
+struct UnitNames {
+    units: UnitSystem,
+    disc: Option<DiscUnits>,
+    /// Whether it is a disc, whose rates without units are those over ω_ref.
+    is_disc: bool,
 }
 
-/// What one number of the equations is in the units of the study.
-fn factor(kind: VariableKind, scales: PointScales) -> f64 {
-    match (kind, scales) {
-        (VariableKind::Number(quantity), PointScales::Belt(scales)) => {
-            scales.own(quantity).map_or(1.0, |(one, _)| one)
-        }
-        (VariableKind::Rate, PointScales::Belt(scales)) => scales.angular_frequency(),
-        (VariableKind::DiscRate, PointScales::Disc(angular)) => angular,
-        _ => 1.0,
+impl UnitNames {
+    fn of(study: &Study) -> Self {
+        let disc = study.disc().ok();
+        let units = match (study.belt(), study.system()) {
+            (Ok(belt), _) => belt.units(),
+            (_, Ok(system)) => system.units(),
+            _ => study.file_units(),
+        };
+        let is_disc = disc.is_some();
+        Self { units, disc: disc.and_then(|study| DiscUnits::of(&study)), is_disc }
+    }
+
+    fn of_variable(&self, variable: &Variable) -> String {
+        let unit = match variable.kind {
+            VariableKind::Number(quantity) => self.units.unit(quantity).unwrap_or("1"),
+            VariableKind::Rate if self.is_disc => {
+                let own = self.disc.and_then(|disc| disc.one(variable.name, "ω_ref"));
+                own.map_or("ω_ref", |(_, unit)| unit)
+            }
+            VariableKind::Rate => rate_unit(self.units),
+            VariableKind::Word { .. } => "",
+        };
+        unit.to_owned()
     }
 }
 

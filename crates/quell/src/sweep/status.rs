@@ -3,7 +3,6 @@
 //! Published codes never change, because stores keep them.
 
 use quell_dynamics::response::{Uncertain, Undefined};
-use quell_dynamics::start::NoSquealingStart;
 use quell_linear::averaging::AveragingError;
 
 /// Status of one number of a map.
@@ -56,8 +55,6 @@ pub enum Status {
     NoSteadySliding = 30,
     /// A dither excites an undamped resonance.
     Resonance = 31,
-    /// The structure is known by a measured frequency response alone.
-    OnlyMeasured = 32,
     /// The number is known, but the fast motion opens a contact, which averaging does not describe.
     Opens = 33,
     /// A system has no base response, or it could not be followed.
@@ -80,6 +77,8 @@ pub enum Status {
     NoReach = 42,
     /// A dither is a factor on a friction force, which averaging does not describe.
     FrictionFactor = 44,
+    /// The system is not one mass on a moving surface.
+    NotOneMass = 45,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -110,7 +109,6 @@ impl Status {
         Self::BeyondRange,
         Self::NoSteadySliding,
         Self::Resonance,
-        Self::OnlyMeasured,
         Self::Opens,
         Self::NoBaseResponse,
         Self::NoAverageOfWaveform,
@@ -122,6 +120,7 @@ impl Status {
         Self::LoudAtLimit,
         Self::NoReach,
         Self::FrictionFactor,
+        Self::NotOneMass,
         Self::Missing,
     ];
 
@@ -166,7 +165,6 @@ impl Status {
             Self::BeyondRange => "beyond_range",
             Self::NoSteadySliding => "no_steady_sliding",
             Self::Resonance => "resonance",
-            Self::OnlyMeasured => "only_measured",
             Self::Opens => "opens",
             Self::NoBaseResponse => "no_base_response",
             Self::NoAverageOfWaveform => "no_average_of_waveform",
@@ -178,6 +176,7 @@ impl Status {
             Self::LoudAtLimit => "loud_at_limit",
             Self::NoReach => "no_reach",
             Self::FrictionFactor => "friction_factor",
+            Self::NotOneMass => "not_one_mass",
             Self::Missing => "missing",
         }
     }
@@ -189,11 +188,11 @@ impl Status {
             Self::InvalidStudy => "the axis values together do not form a valid study",
             Self::Stalled => "the integration stopped: its steps became too small or too many",
             Self::NoSquealingStart => {
-                "the start is squealing, but the undithered belt has no limit cycle here"
+                "the start is squealing, but without dither there is no limit cycle here"
             }
             Self::NotFinite => "the value is not finite",
             Self::UnditheredSettles => {
-                "without dither the belt settles to steady sliding from this start, so there is no \
+                "without dither the motion settles to steady sliding from this start, so there is no \
                  vibration to compare with"
             }
             Self::UnditheredAtRest => {
@@ -227,9 +226,6 @@ impl Status {
             }
             Self::NoSteadySliding => "there is no steady sliding",
             Self::Resonance => "a dither excites an undamped resonance of the structure",
-            Self::OnlyMeasured => {
-                "the structure is known by a measured frequency response alone, which gives no growth rate"
-            }
             Self::Opens => {
                 "the value is known, but the fast motion opens a contact, which averaging does not describe"
             }
@@ -257,6 +253,7 @@ impl Status {
                 "the base response is not stable at twice the amplitude at which the contact begins to reverse"
             }
             Self::NoReach => "the dither moves no contact",
+            Self::NotOneMass => "the system is not one mass on a moving surface",
             Self::Missing => "not computed yet",
         }
     }
@@ -285,19 +282,8 @@ impl From<Uncertain> for Status {
     }
 }
 
-impl From<NoSquealingStart> for Status {
-    fn from(why: NoSquealingStart) -> Self {
-        match why {
-            NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => {
-                Self::NoSquealingStart
-            }
-            NoSquealingStart::Stalled(_) => Self::Stalled,
-        }
-    }
-}
-
-impl From<&AveragingError> for Status {
-    fn from(why: &AveragingError) -> Self {
+impl From<AveragingError> for Status {
+    fn from(why: AveragingError) -> Self {
         match why {
             AveragingError::SetValued { .. } => Self::SetValued,
             AveragingError::TooManyGroups { .. } => Self::TooManyGroups,

@@ -1,15 +1,13 @@
 //! The boundaries at which the dither of a map begins to quench, or to destabilise, according to averaging.
 //!
 //! For a map with an axis `dither.amplitude`: the critical amplitudes of averaging at each value of the other
-//! axis. They are exact, not traced on the grid: D = αR with α from [`critical_amplitudes`].
+//! axis. They are exact, not traced on the grid; in the limit of high frequency D = αR with α from [`critical_amplitudes`].
 
-use quell_linear::averaging::{Averaging, Becomes, CriticalAmplitude, critical_amplitudes};
-
+use quell_linear::averaging::{Averaging, Becomes, DitheredSystem, critical_amplitudes};
+use quell_model::System;
 use quell_model::parameter::DITHER_AMPLITUDE;
-use quell_model::units::Quantity;
 
 use crate::run::varied::key_of;
-use crate::study::BeltStudy;
 use crate::sweep::{Grid, GridAxis};
 
 /// One boundary of averaging in the plane of a map.
@@ -34,7 +32,11 @@ pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
 /// The axis of the amplitude of the first dither, and the other one, in a plane of two axes.
 pub fn amplitude_and_other(grid: &Grid) -> Option<(&GridAxis, &GridAxis)> {
     let [first, second] = grid.axes() else { return None };
-    let amplitude = key_of(&grid.study().belt().ok()?, DITHER_AMPLITUDE.path);
+    let study = grid.study();
+    let amplitude = match study.belt() {
+        Ok(belt) => key_of(&belt, DITHER_AMPLITUDE.path),
+        Err(_) => DITHER_AMPLITUDE.path.to_owned(),
+    };
     match (first.path == amplitude, second.path == amplitude) {
         (true, false) => Some((first, second)),
         (false, true) => Some((second, first)),
@@ -44,35 +46,25 @@ pub fn amplitude_and_other(grid: &Grid) -> Option<(&GridAxis, &GridAxis)> {
 
 /// As [`boundaries`], at other values of the axis that is not the amplitude.
 pub fn boundaries_at(grid: &Grid, values: &[f64]) -> Vec<Boundary> {
-    let (Some((_, across)), Ok(study)) = (amplitude_and_other(grid), grid.study().belt()) else {
-        return Vec::new();
-    };
-    let force =
-        |study: &BeltStudy| study.scales().map_or(1.0, |scales| scales.per_unit(Quantity::Force));
-    let at: Vec<(f64, BeltStudy)> = values
+    let Some((_, across)) = amplitude_and_other(grid) else { return Vec::new() };
+    let model = grid.study().model();
+    let Ok(parameter) = model.parameter(&across.path) else { return Vec::new() };
+    let at: Vec<(f64, System)> = values
         .iter()
-        .filter_map(|&value| Some((value, study.with(&across.path, value).ok()?)))
+        .filter_map(|&value| Some((value, model.at(&[(parameter.clone(), value)]).ok()?)))
         .collect();
     let mut boundaries = Vec::new();
     for averaging in [Averaging::Limit, Averaging::FiniteR] {
-        let critical: Vec<(f64, f64, Vec<CriticalAmplitude>)> = at
+        let critical: Vec<(f64, Vec<(f64, Becomes)>)> = at
             .iter()
-            .filter_map(|(value, study)| {
-                let ratio = study.belt().dithers().first()?.frequency_ratio;
-                let unit = ratio * force(study);
-                Some((*value, unit, critical_amplitudes(study.belt(), averaging).ok()?))
-            })
+            .filter_map(|(value, system)| Some((*value, critical(system, averaging)?)))
             .collect();
         for becomes in [Becomes::Stable, Becomes::Unstable] {
             let points: Vec<(f64, f64)> = critical
                 .iter()
-                .filter_map(|(value, unit, critical)| {
-                    let alpha = critical
-                        .iter()
-                        .map(|critical| (critical.amplitude_ratio, critical.becomes))
-                        .find(|(alpha, change)| *alpha > 0.0 && *change == becomes)?
-                        .0;
-                    Some((*value, alpha * unit))
+                .filter_map(|(value, critical)| {
+                    let mut positive = critical.iter().filter(|(amplitude, _)| *amplitude > 0.0);
+                    Some((*value, positive.find(|(_, change)| *change == becomes)?.0))
                 })
                 .collect();
             if !points.is_empty() {
@@ -81,4 +73,17 @@ pub fn boundaries_at(grid: &Grid, values: &[f64]) -> Vec<Boundary> {
         }
     }
     boundaries
+}
+
+/// The critical amplitudes of the first dither; the limit of high frequency is that of one mass.
+fn critical(system: &System, averaging: Averaging) -> Option<Vec<(f64, Becomes)>> {
+    if averaging == Averaging::FiniteR {
+        let found = DitheredSystem::new(system).ok()?.critical_amplitudes(0).ok()?;
+        return Some(found.iter().map(|found| (found.amplitude, found.becomes)).collect());
+    }
+    let mass = system.one_averaged_mass()?;
+    let unit = mass.amplitude(&system.inputs.first()?.target)
+        * mass.belt().dithers().first()?.frequency_ratio;
+    let found = critical_amplitudes(mass.belt(), averaging).ok()?;
+    Some(found.iter().map(|found| (unit * found.amplitude_ratio, found.becomes)).collect())
 }

@@ -7,8 +7,10 @@ use quell_model::units::Quantity;
 use serde_json::{Map as Object, Value as Json, json};
 
 use crate::dataset::{Array, Dataset};
+use crate::run::belt_system::system_of;
+use crate::run::system::in_units;
 use crate::sweep::{Content, Data, Plan, Status, VariableArrays};
-use crate::words::{in_words, plural};
+use crate::words::plural;
 
 /// A finished map.
 #[derive(Clone, Debug)]
@@ -119,51 +121,24 @@ impl FinishedMap {
             let not = points.filter(|point| self.number(settled, *point) == Some(0.0)).count();
             if not > 0 {
                 let have = if not == 1 { "has" } else { "have" };
+                let is_belt = self.plan.grid().study().belt().is_ok();
+                let advice = if is_belt {
+                    "raise solver.settle or solver.record_periods"
+                } else {
+                    "`response --settle` has one point after a longer time"
+                };
                 warnings.push(format!(
-                    "{not} of {} points {have} not settled (see `settled`): raise solver.settle or \
-                     solver.record_periods",
+                    "{not} of {} points {have} not settled (see `settled`): {advice}",
                     self.plan.grid().len()
                 ));
             }
         }
-        warnings.extend(self.beyond_range());
-        warnings.extend(self.of_systems());
-        warnings.extend(self.points_with(Status::WithoutState));
+        let doubtful = [Status::Opens, Status::BeyondRange, Status::WithoutState];
+        warnings.extend(doubtful.into_iter().filter_map(|status| self.points_with(status)));
         if self.damaged > 0 {
             warnings.push(recomputed(self.damaged));
         }
         warnings
-    }
-
-    /// A warning if slip leaves the range of the friction law at some points.
-    fn beyond_range(&self) -> Option<String> {
-        let entries = self.plan.sheet().entries();
-        let points = 0..self.plan.grid().len();
-        let beyond = |point: &usize| {
-            entries.iter().any(|entry| self.status(entry, *point) == Status::BeyondRange)
-        };
-        let count = points.filter(beyond).count();
-        let study = self.plan.grid().study().belt().ok()?;
-        let range = study.belt().friction().range().filter(|_| count > 0)?;
-        let upper = in_words(&study, Quantity::Velocity, range.upper);
-        let have = if count == 1 { "has" } else { "have" };
-        Some(format!(
-            "{count} of {} points {have} slip outside the range of the {} law, up to {upper} for the study's own values \
-             ({}); the status there is {}",
-            self.plan.grid().len(),
-            study.belt().friction().kind().name(),
-            range.limit,
-            Status::BeyondRange.name(),
-        ))
-    }
-
-    /// Warnings about points of a system at which a value does not hold as stated.
-    fn of_systems(&self) -> Vec<String> {
-        if self.plan.grid().study().system().is_err() {
-            return Vec::new();
-        }
-        let of = |status| self.points_with(status);
-        [Status::Opens, Status::BeyondRange].into_iter().filter_map(of).collect()
     }
 
     /// A warning about the points at which some value has a status.
@@ -173,12 +148,25 @@ impl FinishedMap {
         let at = |point: &usize| entries.iter().any(|entry| self.status(entry, *point) == status);
         let count = (0..all).filter(at).count();
         (count > 0).then(|| {
+            let name = status.name();
             format!(
-                "{count} of {all} points: {}; the status there is {}",
+                "{count} of {all} points: {}{}; the status there is {name}",
                 status.about(),
-                status.name()
+                if status == Status::BeyondRange { self.ranges() } else { String::new() },
             )
         })
+    }
+
+    /// The ranges of the friction laws for the study's own values.
+    fn ranges(&self) -> String {
+        let Ok(study) = system_of(self.plan.grid().study()) else { return String::new() };
+        let ranges = study.system().contacts.iter().filter_map(|contact| {
+            let (range, law) = (contact.friction.range()?, contact.friction.kind().name());
+            let upper = in_units(study.units(), Quantity::Velocity, range.upper);
+            Some(format!("{law} up to {upper} ({})", range.limit))
+        });
+        let ranges: Vec<String> = ranges.collect();
+        format!(", of the study itself {}", ranges.join(" and "))
     }
 
     /// As JSON: arrays nested like the axes.

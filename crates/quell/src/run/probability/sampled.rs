@@ -18,7 +18,7 @@ use crate::run::stability::FAST;
 use crate::run::system::attractor::local_verdict;
 use crate::run::system::{has_equations, in_units};
 use crate::study::{DiscStudy, ParameterId, SystemStudy, UnitSystem};
-use crate::sweep::{Status, growth_of_disc, growth_of_system, least_quiet};
+use crate::sweep::{SlidingGrowth, Status, growth_of_disc, least_quiet};
 use crate::words::digits;
 
 /// A growth rate with its verdict.
@@ -145,8 +145,12 @@ impl SampledKind for SystemStudy {
     fn averaged_growth(&self, system: &System) -> AveragedGrowth {
         let mass = system.one_averaged_mass().filter(|_| system.has_waves());
         let is_slow = |dither: &Dither| dither.lowest_ratio() < FAST;
-        let (growth, beyond_range, opens) = match growth_of_system(system) {
-            Ok(point) => (Ok(JudgedGrowth::of(point.growth)), point.beyond_range, point.opens),
+        let (growth, beyond_range, opens) = match SlidingGrowth::averaged(system) {
+            Ok(found) => (
+                Ok(JudgedGrowth::of(found.growth)),
+                found.doubts.contains(&Status::BeyondRange),
+                found.doubts.contains(&Status::Opens),
+            ),
             Err(status) => (Err(status.about().to_owned()), false, false),
         };
         AveragedGrowth {

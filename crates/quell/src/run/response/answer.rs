@@ -38,8 +38,8 @@ impl MeasuredResponse {
         put_record(&mut fields, "undithered_", without);
         fields
             .number("band_end", Quantity::FrequencyRatio, response.band_end)
-            .plain("settled", self.settled())
-            .plain("undithered_settled", self.undithered_settled());
+            .plain("settled", self.response.dithered_is_settled())
+            .plain("undithered_settled", self.response.undithered_is_settled());
         put_ending(&mut fields, "", &with.ending);
         put_ending(&mut fields, "undithered_", &without.ending);
         let peaks = with.spectrum.peaks(PEAK_FLOOR).into_iter().map(|peak| {

@@ -186,34 +186,12 @@ fn uncertain(why: Uncertain) -> String {
 }
 
 impl MeasuredResponse {
-    /// Whether a dither acts.
-    pub fn has_dither(&self) -> bool {
-        self.response.effect != Effect::Unknown(Uncertain::NoDither)
-    }
-
-    /// Whether the run with dither ends on an orbit, or M of the halves of its record agree.
-    pub(crate) fn settled(&self) -> bool {
-        if !self.has_dither() {
-            return self.undithered_settled();
-        }
-        let vibrations = &self.response.vibrations;
-        vibrations.dithered.is_settled(vibrations.undithered.whole())
-            && self.response.dithered.ending != SystemEnding::Drift
-    }
-
-    /// The same without dither.
-    pub(crate) fn undithered_settled(&self) -> bool {
-        self.response.vibrations.undithered.is_steady()
-            && self.response.undithered.ending != SystemEnding::Drift
-            || self.response.residual_vibration.is_err_and(Undefined::is_quiet)
-    }
-
     /// The effect of the dither and its cost.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let response = &self.response;
         let (units, from) = (study.units(), start_in_words(study, &Vec::new()));
         let amplitude = in_units(units, Quantity::Displacement, response.dithered.lines.whole);
-        if !self.has_dither() {
+        if !response.has_dither() {
             return match response.residual_vibration {
                 Ok(_) => format!(
                     "Started {from}, without dither, the system keeps vibrating with an amplitude of {amplitude}."
@@ -307,13 +285,13 @@ impl MeasuredResponse {
         warnings.extend(of_engine(study.system(), &response.dithered.end));
         let settle = in_units(study.units(), Quantity::Time, self.plan.settle);
         let runs = [
-            ("dithered ", self.settled(), &response.dithered),
-            ("undithered ", self.undithered_settled(), &response.undithered),
+            ("dithered ", response.dithered_is_settled(), &response.dithered),
+            ("undithered ", response.undithered_is_settled(), &response.undithered),
         ];
         // Without dither both are one run.
-        let runs = if self.has_dither() { &runs[..] } else { &runs[1..] };
+        let runs = if response.has_dither() { &runs[..] } else { &runs[1..] };
         for (which, settled, record) in runs {
-            let which = if self.has_dither() { which } else { "" };
+            let which = if response.has_dither() { which } else { "" };
             match record.ending {
                 SystemEnding::Drift => warnings.push(format!(
                     "the {which}response drifts: over the record the observed motion moves on by more than it vibrates, so that \

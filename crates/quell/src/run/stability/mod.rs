@@ -176,13 +176,19 @@ pub(in crate::run) fn not_slow(study: &SystemStudy, slow: &MotionSpectrum) -> Op
     ))
 }
 
+/// The verdict on a growth rate: undecided too where the fast slip of a contact just reaches the velocity of its surface, and slower
+/// surfaces have another slope.
+pub(crate) fn averaged_verdict(growth: Growth, at_corner: bool) -> Verdict {
+    match growth.verdict() {
+        Verdict::Unstable if at_corner => Verdict::Undecided,
+        verdict => verdict,
+    }
+}
+
 impl SlidingStability {
-    /// The verdict: undecided too where the fast slip just reaches the slow one, and slower surfaces have another slope.
+    /// The verdict, as [`averaged_verdict`] has it.
     pub fn verdict(&self) -> Verdict {
-        match self.spectrum.growth.verdict() {
-            Verdict::Unstable if self.at_corner() => Verdict::Undecided,
-            verdict => verdict,
-        }
+        averaged_verdict(self.spectrum.growth, self.at_corner())
     }
 
     /// Whether the fast slip of a contact just reaches the velocity of its surface.

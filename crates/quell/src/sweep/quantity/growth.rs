@@ -1,0 +1,244 @@
+//! Growth rates of small motions about steady sliding, of averages under dither, and the verdicts on them.
+//!
+//! Points of discs that differ only in the friction of a single load share the constant flow or the assembled equations. Every point
+//! goes through the same arithmetic with or without such neighbours, so that its bits do not depend on them.
+
+use quell_disc::dithered;
+use quell_disc::equations::linearised;
+use quell_linear::averaging::{DitheredContact, DitheredSystem};
+use quell_linear::eigenvalues;
+use quell_linear::floquet::FollowerDither;
+use quell_linear::growth::{Growth, Verdict};
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum;
+use quell_model::disc::{Contribution, Contributions};
+use quell_model::{Disc, System};
+use quell_numerics::eigen::EigenError;
+use quell_numerics::floquet::Effort;
+
+use crate::contact_state::averaged_without_states;
+use crate::range::outside_of_laws;
+use crate::run::stability::averaged_verdict;
+use crate::sweep::map_quantity::{
+    MapQuantity, Needs, OF_AVERAGES, RATIO, VERDICTS, VariableKind, variable,
+};
+use crate::sweep::points::{ChunkPoints, PointComputation, Subject};
+use crate::sweep::status::Status;
+use crate::words::digits;
+
+/// The quantities.
+#[rustfmt::skip]
+pub(super) const QUANTITIES: &[MapQuantity] = &[
+    MapQuantity::of::<SlidingGrowth>("growth", "largest growth rate of small motions, by averaging under dither, its verdict and the bound on its error", Needs::Sliding, &[
+        variable(("growth", "Re λ"), "largest growth rate", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &SlidingGrowth| Ok(found.growth.rate))),
+        variable(("growth_error", ""), "bound on the error of the growth rate", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &SlidingGrowth| Ok(found.growth.error))),
+        variable(("growth_verdict", ""), "whether the sign of the growth rate is certain within its error", VERDICTS, OF_AVERAGES, |points| points.values(SlidingGrowth::verdict)),
+    ]),
+    MapQuantity::of::<SlidingGrowth>("frequency", "angular frequency of the fastest growing motion; of a disc under dither up to multiples of the dither frequency", Needs::Sliding, &[
+        variable(("frequency", "Im λ"), "angular frequency of the fastest growing motion", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &SlidingGrowth| Ok(found.growth.frequency))),
+    ]),
+    MapQuantity::of::<SlidingGrowth>("verdict", "verdict on steady sliding, by averaging under dither: stable or unstable, undecided within its error", Needs::Sliding, &[
+        variable(("verdict", ""), "verdict on steady sliding", VERDICTS, OF_AVERAGES, |points| points.values(SlidingGrowth::verdict)),
+    ]),
+    MapQuantity::of::<SlidingGrowth>("slip-ratio", "largest fast slip velocity over the velocity of its surface: from 1 on a contact reverses", Needs::Contacts, &[
+        variable(("slip_ratio", "|â|/v"), "largest fast slip over the velocity of its surface", RATIO, OF_AVERAGES, |points| points.values(|found: &SlidingGrowth| Ok(found.slip_ratio))),
+    ]),
+    MapQuantity::of::<UnditheredGrowth>("growth-undithered", "largest growth rate without dither", Needs::Sliding, &[
+        variable(("growth_undithered", "Re λ_0"), "largest growth rate without dither", VariableKind::Rate, OF_SLIDING, |points| points.values(|found: &UnditheredGrowth| Ok(found.0.growth.rate))),
+        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", VariableKind::Rate, OF_SLIDING, |points| points.values(|found: &UnditheredGrowth| Ok(found.0.growth.error))),
+    ]),
+];
+
+/// Statuses of growth rates without dither other than known.
+const OF_SLIDING: &[Status] = &[Status::BeyondRange, Status::NoSteadySliding];
+
+/// Seconds of one growth rate of ten states: it grows slightly slower than their cube.
+const GROWTH: f64 = 5e-5;
+
+/// Seconds of one growth rate.
+pub(super) fn seconds(subject: &Subject) -> f64 {
+    GROWTH * (subject.states() / 10.0).powi(2).max(0.1)
+}
+
+/// The largest growth rate of one study.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SlidingGrowth {
+    /// Largest growth rate.
+    pub(crate) growth: Growth,
+    /// Largest fast slip velocity over the velocity of its surface, over all contacts.
+    slip_ratio: f64,
+    /// Whether the fast slip of a contact just reaches the velocity of its surface.
+    at_corner: bool,
+    /// Why it does not hold as stated: the gravest first.
+    pub(crate) doubts: Vec<Status>,
+}
+
+/// The same without dither.
+struct UnditheredGrowth(SlidingGrowth);
+
+impl SlidingGrowth {
+    /// By averaging under dither.
+    ///
+    /// # Errors
+    /// Why it does not exist.
+    pub(crate) fn averaged(system: &System) -> Result<Self, Status> {
+        let average = DitheredSystem::new(system).and_then(|prepared| prepared.average());
+        let average = average.map_err(Status::from)?;
+        let growth = average.growth().map_err(not_finite)?;
+        let contacts = system.contacts.iter().zip(&average.contacts);
+        let ratios = contacts
+            .map(|(contact, found)| found.slip_amplitude / contact.surface_velocity.mean().abs());
+        let opens = average.contacts.iter().any(DitheredContact::opens);
+        let beyond = !outside_of_laws(system, digits, Some(&average.contacts)).is_empty();
+        let without_state = !averaged_without_states(system, &average.contacts).is_empty();
+        let doubts = [
+            (opens, Status::Opens),
+            (beyond, Status::BeyondRange),
+            (without_state, Status::WithoutState),
+        ];
+        Ok(Self {
+            growth,
+            slip_ratio: ratios.fold(0.0, f64::max),
+            at_corner: average.contacts.iter().any(|contact| contact.one_sided),
+            doubts: doubts.into_iter().filter(|(holds, _)| *holds).map(|(_, why)| why).collect(),
+        })
+    }
+
+    /// Without dither.
+    fn undithered(system: &System) -> Result<Self, Status> {
+        let linear = Linearised::new(system).map_err(|_| Status::NoSteadySliding)?;
+        let growth = spectrum::growth(&linear, &linear.friction()).map_err(not_finite)?;
+        let beyond = !outside_of_laws(system, digits, None).is_empty();
+        let doubts = if beyond { vec![Status::BeyondRange] } else { Vec::new() };
+        Ok(Self { doubts, ..Self::alone(growth) })
+    }
+
+    /// That of a growth rate alone, in these units.
+    fn alone(growth: Growth) -> Self {
+        Self { growth, slip_ratio: 0.0, at_corner: false, doubts: Vec::new() }
+    }
+
+    fn of_disc(found: Growth, rate: f64) -> Self {
+        let Growth { rate: growth, error, frequency } = found;
+        Self::alone(Growth {
+            rate: rate * growth,
+            error: rate * error,
+            frequency: rate * frequency,
+        })
+    }
+
+    /// The code of the verdict in [`VERDICTS`].
+    fn verdict(&self) -> Result<f64, Status> {
+        match averaged_verdict(self.growth, self.at_corner) {
+            Verdict::Unstable => Ok(0.0),
+            Verdict::Stable => Ok(1.0),
+            Verdict::Undecided if self.at_corner => Err(Status::AtCorner),
+            Verdict::Undecided => Err(Status::WithinError),
+        }
+    }
+}
+
+impl PointComputation for SlidingGrowth {
+    fn at(points: &ChunkPoints<'_>) -> Vec<Result<Self, Status>> {
+        let mut prepared: Option<Prepared> = None;
+        let one = |subject: &Subject| match subject {
+            Subject::System(system) => Self::averaged(system),
+            Subject::Disc(of) => {
+                let found = disc_growth(&of.disc, of.parts, &mut prepared)?;
+                Ok(Self::of_disc(found, of.rate))
+            }
+        };
+        points.iter().map(|point| &point.subject).map(one).collect()
+    }
+
+    fn seconds(subject: &Subject) -> f64 {
+        seconds(subject)
+    }
+
+    fn qualification(&self, _: f64) -> Status {
+        self.doubts.first().copied().unwrap_or(Status::Known)
+    }
+}
+
+impl PointComputation for UnditheredGrowth {
+    fn at(points: &ChunkPoints<'_>) -> Vec<Result<Self, Status>> {
+        let mut prepared: Option<Prepared> = None;
+        let one = |subject: &Subject| match subject {
+            Subject::System(system) => Ok(Self(SlidingGrowth::undithered(system)?)),
+            Subject::Disc(of) => {
+                let found = disc_growth(&of.disc.undithered(), of.parts, &mut prepared)?;
+                Ok(Self(SlidingGrowth::of_disc(found, of.rate)))
+            }
+        };
+        points.iter().map(|point| &point.subject).map(one).collect()
+    }
+
+    fn seconds(subject: &Subject) -> f64 {
+        seconds(subject)
+    }
+
+    fn qualification(&self, value: f64) -> Status {
+        self.0.qualification(value)
+    }
+}
+
+/// A disc of unit friction, and what was prepared for it.
+struct Prepared {
+    disc: Disc,
+    equations: DiscEquations,
+}
+
+enum DiscEquations {
+    Dithered(Box<FollowerDither>),
+    Constant(Box<Linearised>),
+}
+
+/// Largest growth rate of one disc.
+pub(crate) fn growth_of_disc(disc: &Disc, parts: Contributions) -> Result<Growth, Status> {
+    disc_growth(disc, parts, &mut None)
+}
+
+/// Largest growth rate of a disc. Uses `prepared` if it fits this disc except for the friction of its load.
+fn disc_growth(
+    disc: &Disc,
+    parts: Contributions,
+    prepared: &mut Option<Prepared>,
+) -> Result<Growth, Status> {
+    let (unit, factor) = match disc.loads() {
+        [load] if disc.law().is_none() => {
+            let unit = disc.with_friction_of(0, 1.0).map_err(|_| Status::NotFinite)?;
+            (unit, load.friction)
+        }
+        _ => (disc.clone(), 1.0),
+    };
+    let equations = match prepared {
+        Some(prepared) if prepared.disc == unit => &prepared.equations,
+        _ => {
+            let equations =
+                match dithered::prepared_with(&unit, parts).map_err(|_| Status::NotFinite)? {
+                    Some(dithered) => DiscEquations::Dithered(Box::new(dithered)),
+                    None => DiscEquations::Constant(Box::new(
+                        linearised(&unit, parts).map_err(not_finite)?,
+                    )),
+                };
+            &prepared.insert(Prepared { disc: unit, equations }).equations
+        }
+    };
+    match equations {
+        DiscEquations::Dithered(dithered) => {
+            dithered.growth(factor, Effort::default()).map_err(not_finite)
+        }
+        DiscEquations::Constant(linear) => {
+            let on = parts.contains(Contribution::FollowerForce);
+            let mean = linear.contacts().iter();
+            let friction: Vec<f64> = mean
+                .map(|contact| if on { factor * contact.steady.friction } else { 0.0 })
+                .collect();
+            eigenvalues::growth(linear, &friction).map_err(not_finite)
+        }
+    }
+}
+
+fn not_finite(_: EigenError) -> Status {
+    Status::NotFinite
+}

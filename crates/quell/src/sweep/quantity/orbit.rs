@@ -1,0 +1,63 @@
+//! The base response under dither and its multipliers.
+
+use quell_dynamics::motion::orbit::family::NoImage;
+use quell_dynamics::motion::orbit::{BASE_STEPS, MotionOrbit, NoMotionOrbit, base_motion};
+use quell_dynamics::orbit::OrbitVerdict;
+
+use crate::sweep::map_quantity::{MapQuantity, Needs, RATIO, VERDICTS, variable};
+use crate::sweep::points::{ChunkPoints, PointComputation, Subject};
+use crate::sweep::status::Status;
+
+/// The quantities.
+#[rustfmt::skip]
+pub(super) const QUANTITIES: &[MapQuantity] = &[
+    MapQuantity::of::<BaseOrbit>("orbit-verdict", "verdict on the base response by its multipliers", Needs::Motions, &[
+        variable(("orbit_verdict", ""), "verdict on the base response by its multipliers", VERDICTS, OF_ORBIT, |points| points.values(BaseOrbit::verdict)),
+    ]),
+    MapQuantity::of::<BaseOrbit>("orbit-radius", "modulus of the deciding multiplier of the base response: stable below 1", Needs::Motions, &[
+        variable(("orbit_radius", "|λ|"), "modulus of the deciding multiplier", RATIO, OF_ORBIT, |points| points.values(|found: &BaseOrbit| Ok(found.0.radius()))),
+    ]),
+];
+
+/// Statuses of base responses other than known.
+const OF_ORBIT: &[Status] = &[
+    Status::Stalled,
+    Status::WithinError,
+    Status::NoDither,
+    Status::NoSteadySliding,
+    Status::NoBaseResponse,
+];
+
+/// Seconds in which the base response of four states is followed.
+const ORBIT: f64 = 3e-2;
+
+/// The base response.
+struct BaseOrbit(MotionOrbit);
+
+impl BaseOrbit {
+    fn verdict(&self) -> Result<f64, Status> {
+        match self.0.verdict() {
+            OrbitVerdict::Unstable => Ok(0.0),
+            OrbitVerdict::Stable => Ok(1.0),
+            OrbitVerdict::Undecided => Err(Status::WithinError),
+        }
+    }
+}
+
+impl PointComputation for BaseOrbit {
+    fn at(points: &ChunkPoints<'_>) -> Vec<Result<Self, Status>> {
+        points.each(|point| {
+            let orbit = base_motion(point.system()?, BASE_STEPS).map_err(|why| match why {
+                NoMotionOrbit::NoDither => Status::NoDither,
+                NoMotionOrbit::NoSliding(_) => Status::NoSteadySliding,
+                NoMotionOrbit::NoImage(NoImage::Stopped(_)) => Status::Stalled,
+                _ => Status::NoBaseResponse,
+            });
+            orbit.map(Self)
+        })
+    }
+
+    fn seconds(subject: &Subject) -> f64 {
+        ORBIT * (subject.states() / 4.0).powi(2).max(0.1)
+    }
+}
