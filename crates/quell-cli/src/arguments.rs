@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use quell::document::Node;
 use quell::input::Inputs;
-use quell::kind::verbs;
 use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
 use quell::run::moment::at_time;
 use quell::table_file::TableFormat;
+use quell::verbs::verbs;
 use quell::{Change, Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
 

@@ -273,8 +273,8 @@ fn invalid_discs_are_rejected_and_the_clamp_causes_a_warning() {
     place.write("belt.toml", "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 1\nbelt_velocity = 0.1\n\
         [friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2\nreference_velocity = \
                             0.2\n".as_bytes());
-    let errors = place.refused(&["modes", "belt.toml"]);
-    assert_eq!(errors[0]["key"], "belt");
+    let modes = good(&place, &["modes", "belt.toml"]);
+    assert_eq!(modes["modes"].as_array().map(Vec::len), Some(1));
 }
 
 /// A brake disc of steel with its loads in SI.

@@ -87,5 +87,5 @@ fn a_report_is_one_file() {
         .iter()
         .filter_map(|one| one["verb"].as_str())
         .collect();
-    assert_eq!(verbs, ["stability", "atlas", "friction"]);
+    assert_eq!(verbs, ["stability", "modes", "friction"]);
 }

@@ -12,7 +12,7 @@ use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
 use crate::study::vocabulary::DocumentKind;
-use crate::study::{DiscStudy, Kind, Study, UnitSystem, key_at};
+use crate::study::{DiscStudy, Study, UnitSystem, key_at};
 
 /// Unit of a quantity in the numbers of the equations; lengths are those of the study.
 pub fn unit_of(quantity: Quantity, scales: Option<Scales>) -> String {
@@ -138,27 +138,32 @@ pub fn frequency(
     }
 }
 
-/// Reads a frequency of the dither of a study of any kind into the numbers of its equations: R of a belt, ω of a system.
+/// Reads a slip velocity of a study, which is unknown where it could not be read: units are accepted then.
 ///
 /// # Errors
-/// A complaint about `option`.
+/// As [`of_system`].
+pub fn velocity(
+    text: &str,
+    study: Option<&Study>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    of_system(text, Some(Quantity::Velocity), units_of(study), option)
+}
+
+/// Reads an angular frequency of the dither of a study, which is unknown where it could not be read: units are accepted then.
+///
+/// # Errors
+/// As [`system_frequency`].
 pub fn dither_frequency(
     text: &str,
     study: Option<&Study>,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
-    match study.map(Study::kind) {
-        Some(Kind::System(setup)) => system_frequency(text, setup.units(), option),
-        Some(Kind::Disc(_)) => {
-            let disc = study.and_then(|study| study.disc().ok());
-            frequency(text, disc.as_ref(), option)
-        }
-        Some(Kind::Belt(_)) | None => {
-            // Whether a study that could not be read is in SI is unknown: units are accepted then.
-            let scales = study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales);
-            parse(text, Quantity::FrequencyRatio, scales, option)
-        }
-    }
+    system_frequency(text, units_of(study), option)
+}
+
+fn units_of(study: Option<&Study>) -> UnitSystem {
+    study.map_or(UnitSystem::Si, Study::units)
 }
 
 /// Reads a value of the number that a path of this study names, in the unit of its key. If the path names no number, which its own reader

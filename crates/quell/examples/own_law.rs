@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --package quell --example own_law`
 
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 /// A formula of the slip velocity v, proven finite and not negative up to the velocities that occur.
@@ -23,7 +23,7 @@ constants = { c = 0.1 }
 /// An invalid study, such as a formula that becomes negative.
 pub(crate) fn main() -> Result<(), Failure> {
     let study = verbs(&Study::parse(STUDY, &[])?);
-    println!("{}", study.friction(Some(vec![0.1, 0.2, 0.4]), false)?.text());
+    println!("{}", study.friction(Some(&[0.1, 0.2, 0.4]), false)?.text());
     let found = study.stability()?;
     assert_eq!(found.json()["verdict"], "unstable");
     println!("{}", found.text());

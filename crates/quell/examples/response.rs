@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release --package quell --example response`
 
-use quell::kind::verbs;
 use quell::run::response::ResponseRequest;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 /// A Stribeck belt under a fast tangential force.

@@ -2,10 +2,10 @@
 //!
 //! `cargo run --release --package quell --example thresholds`
 
-use quell::kind::system_of;
 use quell::outcome::{Answered, Outcome};
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::{self, ThresholdsRequest};
+use quell::verbs::system_of;
 use quell::{Failure, Study};
 
 /// A Stribeck belt; the amplitude of its dither is varied.

@@ -6,83 +6,30 @@ use quell_model::{Belt, Contact, Direction, Friction, System};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::study::{BeltStudy, Study, SystemStudy, not_periodic};
+use crate::study::SystemStudy;
 use crate::words::digits;
 
 /// Ratio of the dither displacement to the breakaway displacement, and Π of bristles, from which the average of the rigid law is good:
 /// its error is about the reciprocal.
 const LARGE: f64 = 30.0;
 
-/// Verbs of belts that know the state of a contact; `simulate` and `friction` ask nothing here.
-const OF_BELTS_WITH_STATES: &[&str] = &["response", "design", "map"];
-
-/// Verbs of systems about motions that repeat.
-const OF_PERIODIC_DITHER: &[&str] = &[
-    "orbit",
-    "attractor",
-    "thresholds",
-    "bifurcation",
-    "basins",
-    "design",
-    "actuator",
-    "stability --exact",
-];
-
-/// Rejects a verb on a belt whose contact has a state of its own, or whose dither is noise.
-///
-/// # Errors
-/// A complaint about the key that gives the contact its state, or the noise its waveform.
-pub(crate) fn refused_of_belt(study: &BeltStudy, verb: &str) -> Result<(), Failure> {
-    if let Some(key) = Study::from(study).noise() {
-        return Err(not_periodic(verb, key).into());
-    }
-    if OF_BELTS_WITH_STATES.contains(&verb) {
-        return Ok(());
-    }
-    complaint_of_belt(study.belt(), verb).map_or(Ok(()), |complaint| Err(complaint.into()))
-}
-
-/// The complaint of a verb about a belt whose contact has a state of its own; `None` of a rigid contact.
-pub(crate) fn complaint_of_belt(belt: &Belt, verb: &str) -> Option<Complaint> {
-    if !belt.has_contact_state() {
-        return None;
-    }
-    let (key, value) = match belt.tangential_stiffness() {
-        Some(stiffness) => ("belt.tangential_stiffness", Json::from(stiffness)),
-        None => ("friction.law", Json::from(belt.friction().kind().name())),
-    };
-    let allowed = format!(
-        "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate`, `response`, `friction`, `orbit`, \
-         `attractor`, `thresholds`, `bifurcation`, `basins`, `waveforms`, `design` and `map` know contacts with a state of their own"
-    );
-    Some(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed))
-}
-
-/// Rejects a verb about motions that repeat on a system under noise.
-///
-/// # Errors
-/// A complaint about the key of the waveform.
-pub(crate) fn refused_of_system(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
-    if OF_PERIODIC_DITHER.contains(&verb)
-        && let Some(key) = Study::from(study).noise()
-    {
-        return Err(not_periodic(verb, key).into());
-    }
-    Ok(())
-}
-
 /// Rejects a verb that knows averages alone on a system with a contact that has a state of its own.
 ///
 /// # Errors
 /// A complaint about the key that gives the contact its state.
-pub(crate) fn refused_where_averaged(system: &System, verb: &str) -> Result<(), Failure> {
+pub(crate) fn refused_where_averaged(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
+    let system = study.system();
     let Some(contact) = system.contacts.iter().find(|contact| contact.has_state()) else {
         return Ok(());
     };
-    let prefix = format!("contact.{}", contact.name);
+    // The system of a belt has the document of the belt.
+    let of_system = [format!("contact.{}", contact.name), format!("contact.{}.", contact.name)];
+    let of_belt = ["belt".to_owned(), String::new()];
+    let is_belt = study.document().get("belt").is_some();
+    let [surface, friction] = if is_belt { of_belt } else { of_system };
     let (key, value) = match contact.tangential_stiffness {
-        Some(stiffness) => (format!("{prefix}.tangential_stiffness"), Json::from(stiffness)),
-        None => (format!("{prefix}.friction.law"), Json::from(contact.friction.kind().name())),
+        Some(stiffness) => (format!("{surface}.tangential_stiffness"), Json::from(stiffness)),
+        None => (format!("{friction}friction.law"), Json::from(contact.friction.kind().name())),
     };
     let allowed = format!(
         "a rigid contact with a law of the slip velocity alone for `{verb}`, which compares with averages; `design` and `thresholds` know \

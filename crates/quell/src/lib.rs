@@ -8,7 +8,7 @@
 //!
 //! ```
 //! use quell::Study;
-//! use quell::kind::verbs;
+//! use quell::verbs::verbs;
 //! use quell::run::response::ResponseRequest;
 //!
 //! # fn main() -> Result<(), quell::Failure> {
@@ -40,7 +40,7 @@
 //!
 //! ```
 //! # use quell::Study;
-//! use quell::kind::verbs;
+//! use quell::verbs::verbs;
 //! use quell::run::protocol::Protocol;
 //! use quell::run::thresholds::ThresholdsRequest;
 //!
@@ -118,7 +118,7 @@
 //!
 //! ```
 //! use quell::Study;
-//! use quell::kind::verbs;
+//! use quell::verbs::verbs;
 //!
 //! # fn main() -> Result<(), quell::Failure> {
 //! let text = r#"
@@ -160,7 +160,7 @@ mod effort;
 pub mod fields;
 pub mod html;
 pub mod keys;
-pub mod kind;
+pub mod needs;
 mod noise;
 pub mod outcome;
 pub mod output;
@@ -175,6 +175,7 @@ pub mod store;
 pub mod sweep;
 pub mod table_file;
 pub mod template;
+pub mod verbs;
 pub mod words;
 
 pub use quell_input::{complaint, document, input, measurement, nearest, record};

@@ -2,12 +2,12 @@
 //! and ramps.
 
 use quell::Study;
-use quell::kind::moving_system;
-use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::noise_response;
 use quell::run::response::ResponseRequest;
 use quell::study::{BeltStudy, SystemStudy};
+use quell::verbs::moving_system;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 const LAW: &str = "law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n";
@@ -43,11 +43,8 @@ fn system(numbers: Numbers, dither: &str) -> SystemStudy {
     SystemStudy::parse(&text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"))
 }
 
-fn answer(
-    study: &SystemStudy,
-    ask: impl Fn(&dyn quell::kind::Verbs) -> quell::kind::Reply,
-) -> Json {
-    ask(verbs(&Study::from(study)).as_ref()).unwrap_or_else(|why| panic!("{why}")).json()
+fn answer(study: &SystemStudy, ask: impl Fn(&quell::verbs::Verbs) -> quell::verbs::Reply) -> Json {
+    ask(&verbs(&Study::from(study))).unwrap_or_else(|why| panic!("{why}")).json()
 }
 
 fn number(json: &Json) -> f64 {
@@ -67,7 +64,7 @@ fn friction_of_the_contact() {
         "waveform = \"triangle\"\namplitude = 3.0\nfrequency_ratio = 20.0",
     ] {
         let at = vec![-0.05, 0.03, 0.08, 0.15, 0.3];
-        let found = answer(&system(LIGHT, dither), |verbs| verbs.friction(Some(at.clone()), false));
+        let found = answer(&system(LIGHT, dither), |verbs| verbs.friction(Some(&at), false));
         let contact = &found["contacts"][0];
         let study = belt(LIGHT, dither, "");
         let motion = quell_linear::averaging::AveragedLaw::of_belt(
@@ -93,7 +90,7 @@ fn friction_of_the_contact() {
         LIGHT,
         "waveform = \"sine\"\namplitude = 2.0\nfrequency = 20.0",
     )))
-    .friction(Some(vec![0.15]), true);
+    .friction(Some(&[0.15]), true);
     // The steady responses of the mass: beyond the fast velocity its averages hold.
     let measured = measured.expect("one mass").json();
     let of = |name: &str| number(&measured["contacts"][0][name][0]);
@@ -208,7 +205,7 @@ fn critical_noise() {
     let dither = "waveform = \"noise\"\nband = [8.0, 12.0]\namplitude = 1.0";
     let of_belt =
         verbs(&Study::from(&belt(numbers, dither, ""))).stability().expect("averages").json();
-    let of_system = answer(&system(numbers, dither), |verbs| verbs.stability());
+    let of_system = answer(&system(numbers, dither), quell::verbs::Verbs::stability);
     let amplitude = |json: &Json| number(&json["critical_amplitudes"][0]["amplitude"]);
     close(amplitude(&of_belt), amplitude(&of_system), 1e-15, "critical amplitude");
     let limit = amplitude(&of_belt["limit"]);

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::run::exponents::ExponentTimes;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::thresholds::ThresholdsRequest;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {

@@ -1,9 +1,9 @@
 //! The describing function of averaged friction against exact responses.
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::run::response::ResponseRequest;
 use quell::study::BeltStudy;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 const STUDY: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 0.1\nbelt_velocity = 0.12\n[friction]\nlaw = \"stribeck\"\n\

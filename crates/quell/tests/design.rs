@@ -1,9 +1,9 @@
 //! `design` of a belt: units, complaints with their keys, and several waveforms.
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::ThresholdsRequest;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 use crate::designs::{complaint, facts};

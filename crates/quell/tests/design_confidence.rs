@@ -1,6 +1,6 @@
 //! `design` with `confidence`: the least amplitude that is quiet in a share of random samples.
 
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 use serde_json::Value as Json;
 

@@ -1,7 +1,7 @@
 //! `design` of a disc: its answer as JSON, speeds and frequencies in SI, other waveforms, and refusals.
 
 use quell::Study;
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 use crate::designs::{complaint, facts};

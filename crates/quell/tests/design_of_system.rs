@@ -1,7 +1,7 @@
 //! `design` of a system: the belt written as a system against independent numbers, dither on one of two masses, and refusals.
 
 use quell::Study;
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 use crate::designs::{complaint, facts};

@@ -4,7 +4,7 @@
 //! amplitude that a design had named. The end of a range under a largest force: a bisection of the exact threshold by that program.
 
 use quell::Study;
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 /// The answer of `design`.

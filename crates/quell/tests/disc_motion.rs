@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use quell::kind::{moving_system, verbs};
 use quell::run::disc::{motion, stability};
 use quell::run::response::ResponseRequest;
 use quell::run::simulate::MotionRequest;
 use quell::run::system::start::read_state;
 use quell::study::{DiscStudy, Study};
+use quell::verbs::{moving_system, verbs};
 use serde_json::Value as Json;
 
 const PLATE: &str = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n";

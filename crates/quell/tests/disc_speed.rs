@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use quell::kind::verbs;
 use quell::run::disc::motion;
 use quell::run::disc::resonances::ResonancesRequest;
 use quell::run::simulate::MotionRequest;
 use quell::study::{DiscStudy, Study};
+use quell::verbs::verbs;
 use quell_dynamics::motion::MotionStart;
 use serde_json::Value as Json;
 

@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use quell::kind::{system_of, verbs};
 use quell::picture::orbit::orbit as draw_orbit;
 use quell::picture::{basins as draw_basins, curves as draw_curves, disc};
 use quell::plot::Figure;
@@ -15,6 +14,7 @@ use quell::run::protocol::Protocol;
 use quell::run::thresholds::{self, curves};
 use quell::run::varied::Range;
 use quell::sweep::Running;
+use quell::verbs::{system_of, verbs};
 use quell::{BeltStudy, Change, DiscStudy, Study, picture};
 use serde_json::Value as Json;
 

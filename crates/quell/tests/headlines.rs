@@ -1,10 +1,10 @@
 //! First sentences against the tables and the JSON that follow them.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::outcome::Outcome;
 use quell::record::RecordRequest;
 use quell::run::decay::{self, DecayRequest};
@@ -12,6 +12,7 @@ use quell::run::record_fit::{self, RecordFitRequest};
 use quell::run::response::ResponseRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::study::Change;
+use quell::verbs::verbs;
 use quell_numerics::random::SplitMix;
 use serde_json::Value as Json;
 
@@ -139,7 +140,7 @@ fn pad((from, to): (f64, f64), current: f64) -> String {
 
 /// The natural frequency of the pad.
 fn natural() -> f64 {
-    (370e6_f64 / 0.1).sqrt() / std::f64::consts::TAU
+    (370e6_f64 / 0.1).sqrt() / TAU
 }
 
 /// Near the resonance a small dither is followed in step, and a tone replaces the squeal: it is not called quiet.
@@ -160,10 +161,7 @@ fn a_dither_in_the_band_of_the_vibration_is_not_called_quiet() {
         first.contains(&format!("({level:.1} dB)")) && first.contains("a tone at 13"),
         "{first}"
     );
-    assert!(
-        (number(&facts["tone_frequency"]) / (13000.0 * std::f64::consts::TAU) - 1.0).abs() < 0.01,
-        "{facts}"
-    );
+    assert!((number(&facts["tone_frequency"]) / (13000.0 * TAU) - 1.0).abs() < 0.01, "{facts}");
     // The response to that dither, from its own verb.
     let point = number(&facts["worst"]["belt.belt_velocity_m_per_s"]);
     let amplitude = number(&facts["parameters"]["dither.amplitude_n"]);
@@ -227,7 +225,7 @@ fn pad_with_stack(blocked_force: f64) -> String {
 #[test]
 fn the_largest_margin_is_the_largest_of_its_rows() {
     let belts = [((9800.0, 40000.0), 5.0), ((9000.0, 30000.0), 15.0)]
-        .map(|(range, current)| (pad(range, current), (range.0 / natural(), range.1 / natural())));
+        .map(|(range, current)| (pad(range, current), (TAU * range.0, TAU * range.1)));
     let systems = [0.05, 0.1].map(|force| (pad_with_stack(force), (3.0, 12.0)));
     let mut narrow = 0;
     for (text, range) in belts.into_iter().chain(systems) {
@@ -261,7 +259,7 @@ fn the_largest_margin_is_the_largest_of_its_rows() {
 /// where an undamped average needs nothing, the margin has no number.
 #[test]
 fn averages_in_the_band_of_the_vibration_are_named() {
-    let range = (7000.0 / natural(), 12000.0 / natural());
+    let range = (TAU * 7000.0, TAU * 12000.0);
     let found = verbs(&study(&pad((7000.0, 12000.0), 15.0))).actuator(Some(range));
     let facts = found.expect("an actuator").facts();
     assert!(words(&facts["sentence"]).contains("which does not hold below"), "{facts}");

@@ -2,13 +2,13 @@
 //!
 //! Numbers: `reference/laws.json` (source and tolerance in `reference/README.md`); published cases with their source.
 
-use quell::kind::{moving_system, verbs};
 use quell::run::orbit::Wanted;
 use quell::run::response::ResponseRequest;
 use quell::run::simulate::{MotionRequest, Simulation};
 use quell::run::{basins, bifurcation, map, simulate, thresholds, varied};
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
+use quell::verbs::{moving_system, verbs};
 use quell_linear::averaging::{AveragedLaw, Averaging, Effective, FastMotion};
 use serde_json::Value as Json;
 
@@ -41,10 +41,7 @@ fn set(study: &str, changes: &[&str]) -> BeltStudy {
 
 /// The friction of a belt's contact at slip velocities.
 fn friction(study: &BeltStudy, at: Option<&[f64]>) -> Json {
-    verbs(&quell::Study::from(study))
-        .friction(at.map(<[f64]>::to_vec), false)
-        .expect("friction")
-        .json()
+    verbs(&quell::Study::from(study)).friction(at, false).expect("friction").json()
 }
 
 fn warnings(json: &Json) -> String {
@@ -402,6 +399,6 @@ fn formulas_are_proven_for_every_study() {
         normal_force_n = 10.0\nbelt_velocity_m_per_s = 0.5\n[friction]\nlaw = \"expression\"\n\
         coefficient = \"0.4 - 0.1*abs(v)\"\nmaximum_velocity_m_per_s = 3.0\n";
     let si = study(si);
-    let warned = warnings(&friction(&si, Some(&[0.04])));
+    let warned = warnings(&friction(&si, Some(&[4.0])));
     assert!(warned.contains("0 m/s to 3 m/s"), "{warned}");
 }

@@ -2,7 +2,6 @@
 //!
 //! Numbers: `reference/laws-with-state.json` (source and tolerance in `reference/README.md`).
 
-use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::orbit::{Wanted, run as orbit_run};
 use quell::run::protocol::Protocol;
@@ -12,6 +11,7 @@ use quell::run::stability::run as system_stability;
 use quell::run::system::exact::run as system_exact;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::study::{BeltStudy, Study, SystemStudy};
+use quell::verbs::verbs;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
 use serde_json::Value as Json;
@@ -47,7 +47,7 @@ fn warnings(json: &Json) -> String {
 
 /// The friction of a belt's contact at a slip velocity.
 fn friction(study: &BeltStudy, at: f64) -> Json {
-    verbs(&Study::from(study)).friction(Some(vec![at]), false).expect("friction").json()
+    verbs(&Study::from(study)).friction(Some(&[at]), false).expect("friction").json()
 }
 
 fn mean_of(friction: &Json) -> f64 {
@@ -431,9 +431,8 @@ fn belts_with_a_state_are_answered_in_si() {
     };
     for [si, scaled] in in_both_forms() {
         let [si, scaled] = [&si, &scaled].map(|study| verbs(&Study::from(study)));
-        let of = |ask: &dyn Fn(&dyn quell::kind::Verbs) -> quell::kind::Reply| {
-            [&si, &scaled]
-                .map(|verbs| ask(verbs.as_ref()).unwrap_or_else(|why| panic!("{why}")).json())
+        let of = |ask: &dyn Fn(&quell::verbs::Verbs) -> quell::verbs::Reply| {
+            [&si, &scaled].map(|verbs| ask(verbs).unwrap_or_else(|why| panic!("{why}")).json())
         };
         let [a, b] = of(&|verbs| verbs.orbit(&Wanted::default()));
         assert_eq!(a["verdict"], b["verdict"]);

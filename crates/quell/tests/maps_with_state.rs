@@ -4,13 +4,13 @@
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
 use quell::run::response::ResponseRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::sweep::{MapQuantity, Plan, QUANTITIES, Running};
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {

@@ -1,9 +1,9 @@
 //! `friction --measured`: friction of steady responses next to averaged friction, and the warnings about the latter.
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::outcome::Outcome;
 use quell::study::{BeltStudy, Change};
+use quell::verbs::verbs;
 use quell_model::digits::digits;
 use serde_json::Value as Json;
 
@@ -21,7 +21,7 @@ fn warnings(json: &Json) -> Vec<&str> {
 
 /// The friction of a belt's contact at slip velocities, as JSON with the warnings of the answer.
 fn friction(study: &BeltStudy, at: &[f64], measured: bool) -> Json {
-    let answer = verbs(&Study::from(study)).friction(Some(at.to_vec()), measured);
+    let answer = verbs(&Study::from(study)).friction(Some(at), measured);
     answer.expect("friction").json()
 }
 
@@ -29,7 +29,7 @@ fn friction(study: &BeltStudy, at: &[f64], measured: bool) -> Json {
 fn measured_friction_is_reported_next_to_the_average() {
     let study = study(&["dither.amplitude=0.9"]);
     let at = [-0.15, -0.02, 0.0, 0.02, 0.15];
-    let answer = verbs(&Study::from(&study)).friction(Some(at.to_vec()), true).expect("friction");
+    let answer = verbs(&Study::from(&study)).friction(Some(&at[..]), true).expect("friction");
     let whole = answer.json();
     let json = &whole["contacts"][0];
     let measured = json["measured_coefficient"].as_array().expect("a list");
@@ -52,8 +52,7 @@ fn measured_friction_is_reported_next_to_the_average() {
             && csv_measured.contains("measured_stick_fraction"),
         "{csv_measured}"
     );
-    let averaged =
-        verbs(&Study::from(&study)).friction(Some(at.to_vec()), false).expect("friction");
+    let averaged = verbs(&Study::from(&study)).friction(Some(&at[..]), false).expect("friction");
     let csv = csv(averaged.as_ref());
     assert!(!csv.contains("measured_"), "{csv}");
 }

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::run::simulate::{self, MotionRequest};
 use quell::run::system::start::read_state;
+use quell::verbs::verbs;
 use quell_dynamics::motion::orbit::{
     MotionOrbit, base_motion, free_cycle, motion_thresholds, settled, settled_many,
 };

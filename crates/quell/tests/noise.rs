@@ -1,11 +1,11 @@
 //! Noise: what a study says about it, its runs, its averages, and the share of seeds that quench.
 
 use quell::Study;
-use quell::kind::{moving_system, verbs};
 use quell::run::noise_response::{self, NoiseResponse};
 use quell::run::response::ResponseRequest;
 use quell::run::simulate::{self, MotionRequest};
 use quell::study::{BeltStudy, SystemStudy};
+use quell::verbs::{moving_system, verbs};
 use quell_linear::averaging::{Averaging, FastMotion, critical_amplitudes};
 use quell_model::Waveform;
 use serde_json::Value as Json;
@@ -173,7 +173,7 @@ fn a_seed_decides_the_run() {
 #[test]
 fn averages_have_answers() {
     let noisy = study(&with_noise(3.0, BAND));
-    let curve = verbs(&Study::from(&noisy)).friction(Some(vec![0.05, 0.1, 0.0]), false);
+    let curve = verbs(&Study::from(&noisy)).friction(Some(&[0.05, 0.1, 0.0]), false);
     let curve = curve.expect("friction").json();
     let motion = FastMotion::of(noisy.belt(), 0.1, Averaging::Limit).expect("a motion");
     assert!((motion.noise() / (0.3 / 2f64.sqrt()) - 1.0).abs() < 0.05);

@@ -3,12 +3,12 @@
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::run::probability::ProbabilityRequest;
 use quell::run::response::ResponseRequest;
 use quell::run::system::tracked::TrackRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
+use quell::verbs::verbs;
 use quell_design::quench::quench;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -168,7 +168,9 @@ fn map(text: &str, quantities: &[&str]) -> Json {
 /// The unprefixed keys of every verb are those of its sentence, by finite-R averaging; the limit has names of its own.
 #[test]
 fn verdicts_by_averaging_are_those_of_the_sentence() {
-    for (text, amplitude) in [(NEAR, "dither.amplitude"), (BRAKE, "dither.amplitude_n")] {
+    for (text, amplitude, slip) in
+        [(NEAR, "dither.amplitude", 0.05), (BRAKE, "dither.amplitude_n", 0.1)]
+    {
         let own =
             number(&verbs(&study(text)).check().expect("valid").facts()["dithers"][0]["amplitude"]);
         let stability = verbs(&study(text)).stability().expect("averages").facts();
@@ -196,8 +198,7 @@ fn verdicts_by_averaging_are_those_of_the_sentence() {
         assert_eq!(found["critical_amplitude"][0], critical["amplitude"]);
         assert_eq!(found["limit_critical_amplitude"][0], limit["amplitude_ratio"]);
         // Mean friction has the slope that decides: that of the limit has the other sign of 2ζ + Fμ̄′.
-        let friction =
-            verbs(&study(text)).friction(Some(vec![0.05]), false).expect("means").facts();
+        let friction = verbs(&study(text)).friction(Some(&[slip]), false).expect("means").facts();
         let slope = |name: &str| number(&friction["contacts"][0][name][0]);
         assert!(slope("effective_slope") > slope("limit_effective_slope"), "{friction}");
         let uncertain = format!(
@@ -245,9 +246,11 @@ fn a_refused_option_is_not_listed() {
         window: (0.1, 0.2),
         along: None,
     };
-    let refused = verbs(&study(NEAR)).tracked_stability(&request).map(|_| ()).expect_err("a belt");
+    let disc = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\
+                [disc.load]\nradius_ratio = 0.75\nmass = 0.04\ndamping = 0.0\nstiffness = 0.04\nfriction = 0.4\nspeed = 0.5\n";
+    let refused = verbs(&study(disc)).tracked_stability(&request).map(|_| ()).expect_err("a disc");
     let said = refused.to_string();
-    assert!(said.starts_with("belt: stability --parameter is not available"), "{said}");
+    assert!(said.starts_with("disc: stability --parameter is not available"), "{said}");
     assert!(said.contains("stability without --parameter"), "{said}");
 }
 

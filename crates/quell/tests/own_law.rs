@@ -164,7 +164,7 @@ fn the_studies_of_own_laws_are_valid() {
         1,
         "what decides a map is in its settings"
     );
-    let object = quell::kind::verbs(&quell::Study::from(&measured)).check().expect("valid").json();
+    let object = quell::verbs::verbs(&quell::Study::from(&measured)).check().expect("valid").json();
     assert!(
         object["contacts"][0]["friction"]["fit"]["rms_error"]
             .as_f64()

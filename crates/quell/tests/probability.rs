@@ -2,9 +2,9 @@
 
 use std::sync::atomic::AtomicBool;
 
-use quell::kind::verbs;
 use quell::run::probability::{ProbabilityRequest, ProbabilityStart};
 use quell::sweep::Running;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 use serde_json::Value as Json;
 

@@ -2,10 +2,10 @@
 //!
 //! Numbers: `reference/profiles.json` (source and tolerance in `reference/README.md`).
 
-use quell::kind::verbs;
 use quell::run::response::ResponseRequest;
 use quell::run::simulate::MotionRequest;
 use quell::study::Study;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -222,7 +222,8 @@ fn questions_about_a_steady_study_are_refused_by_name() {
         let why = format!("{:?}", reply.map(|_| ()).expect_err("a refusal"));
         assert!(why.contains("belt.drive") && why.contains("--at-time"), "{why}");
     }
-    let why = quell::sweep::Plan::new(&study, &[]).map(|_| ()).expect_err("a refusal");
+    let verdict = quell::sweep::MapQuantity::named("verdict", "--quantity").expect("a quantity");
+    let why = quell::sweep::Plan::new(&study, &[verdict]).map(|_| ()).expect_err("a refusal");
     assert!(why.to_string().contains("belt.drive"), "{why}");
 }
 

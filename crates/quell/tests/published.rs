@@ -3,10 +3,10 @@
 //! Numbers and sources are in `reference/published.json`; the page on correctness shows the same table.
 
 use quell::BeltStudy;
-use quell::kind::{moving_system, system_of};
 use quell::run::orbit::{FoundMotion, Wanted, run as orbit_of};
 use quell::run::simulate::{self, MotionRequest, Simulation};
 use quell::run::thresholds::{ThresholdsRequest, run as thresholds};
+use quell::verbs::{moving_system, system_of};
 use quell_dynamics::motion::orbit::limit_cycles;
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
 use quell_dynamics::orbit::OrbitVerdict;

@@ -176,7 +176,7 @@ fn a_system_is_fitted_from_its_start() {
         static_coefficient = 0.7
     "#;
     let study = Study::parse(text, &[]).expect("valid");
-    let motion = quell::kind::verbs(&study).recorded_motion("test").expect("a motion");
+    let motion = quell::verbs::verbs(&study).recorded_motion("test").expect("a motion");
     let times: Vec<f64> = (0..300).map(|k| 0.15 * f64::from(k)).collect();
     let quantity = quell_model::RecordedQuantity::Displacement;
     let (exact, _) = motion.readings(quantity, &times).expect("readings");
@@ -237,7 +237,7 @@ fn a_fit_without_numbers_or_with_unknown_ones_is_refused() {
 #[test]
 fn a_record_of_the_study_itself_has_no_difference() {
     let study = measured_belt();
-    let motion = quell::kind::verbs(&study).recorded_motion("test").expect("a motion");
+    let motion = quell::verbs::verbs(&study).recorded_motion("test").expect("a motion");
     let quiet = quell::run::recorded_motion::ObservedMotion {
         system: motion.system.undithered(),
         ..motion.clone()

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::report::{ReportRequest, StudyReport, run};
 use quell::run::orbit::Wanted;
 use quell::run::response::ResponseRequest;
 use quell::study::Kind;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 fn studies() -> PathBuf {
@@ -176,7 +176,7 @@ fn what_was_not_examined_is_about_this_study() {
     };
     let squeal = report(&study("will-this-dither-quench-it")).json();
     assert!(subject(&squeal, "Other starts").contains("from the undithered limit cycle"));
-    assert!(subject(&squeal, "Other dither frequencies").contains("frequency ratio R = 10 only"));
+    assert!(subject(&squeal, "Other dither frequencies").contains("the angular frequency 10 only"));
     assert!(
         subject(&squeal, "Other amplitudes").contains("`dither.amplitude` from 0.033 to 0.66"),
         "{squeal}"

@@ -3,10 +3,10 @@
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::outcome::Outcome;
 use quell::run::system::tracked::TrackRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
+use quell::verbs::verbs;
 use quell_linear::averaging::AveragingError;
 use quell_linear::linearised::NoSteadySliding;
 use serde_json::Value as Json;

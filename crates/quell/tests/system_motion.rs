@@ -5,7 +5,6 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
-use quell::kind::verbs;
 use quell::run::basins::{BasinsRequest, StartLayout, read_plane};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::orbit::Wanted;
@@ -13,6 +12,7 @@ use quell::run::protocol::{Protocol, read_state_of};
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::varied::Range;
 use quell::sweep::Running;
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 /// Accuracy of states and event times.

@@ -3,7 +3,6 @@
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
-use quell::kind::{system_of, verbs};
 use quell::run::basins::{BasinsRequest, StartLayout, default_plane};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::found_attractor::AttractorRequest;
@@ -13,6 +12,7 @@ use quell::run::thresholds::ThresholdsRequest;
 use quell::run::thresholds::curves::CurvesRequest;
 use quell::run::varied::Range;
 use quell::sweep::Running;
+use quell::verbs::{system_of, verbs};
 use serde_json::Value as Json;
 
 const LAW: &str =

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use quell::kind::verbs;
 use quell::run::system::tracked::TrackRequest;
+use quell::verbs::verbs;
 use quell::{Change, Study};
 use serde_json::Value as Json;
 

@@ -2,7 +2,6 @@
 //!
 //! Numbers: `reference/waveforms.json` (source and tolerance in `reference/README.md`).
 
-use quell::kind::{moving_system, system_of, verbs};
 use quell::run::orbit::Wanted;
 use quell::run::response::ResponseRequest;
 use quell::run::simulate::{MotionRequest, Simulation};
@@ -11,6 +10,7 @@ use quell::run::waveforms::WaveformComparison;
 use quell::run::{simulate, waveforms};
 use quell::study::{BeltStudy, SystemStudy};
 use quell::sweep::{MapQuantity, Plan};
+use quell::verbs::{moving_system, system_of, verbs};
 use quell::{Failure, Study};
 use quell_dynamics::orbit::threshold::local;
 use quell_linear::averaging::{Averaging, Becomes, CrossingKind, critical_amplitudes};
@@ -85,7 +85,7 @@ fn averages_are_those_of_the_definition() {
             let alpha = number(&case["amplitude_ratio"]);
             let study = study.with("dither.amplitude", alpha * ratio).expect("an amplitude");
             let at = numbers(&case["slip_velocity"]);
-            let found = verbs(&Study::from(&study)).friction(Some(at), false).expect("friction");
+            let found = verbs(&Study::from(&study)).friction(Some(&at), false).expect("friction");
             let found = &found.json()["contacts"][0];
             // The reference is of the limit R → ∞.
             let limit =

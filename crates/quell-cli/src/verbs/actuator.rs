@@ -1,7 +1,7 @@
 //! `quell actuator`: where over frequency the actuator can give the dither that quenches.
 
 use clap::{Args, ValueHint};
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Complaint, Failure, quantity};
 
 use super::numbers::pair;
@@ -13,7 +13,7 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Range of dither frequencies: of a belt ratios R, of a system angular frequencies, or with units such as 5kHz:40kHz [default:
+    /// Range of dither frequencies: angular frequencies in the units of the study, or with units such as 5kHz:40kHz [default:
     /// that of a measured actuator, or from a tenth, but above the vibration, to 10 times the frequency of the dither]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     frequency: Option<String>,

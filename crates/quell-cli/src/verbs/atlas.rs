@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use quell::input::Inputs;
-use quell::kind::verbs;
 use quell::run::atlas::{recomputed, tables};
 use quell::sweep::Running;
+use quell::verbs::verbs;
 use quell::{Change, Failure, Study};
 
 use super::map::threads;

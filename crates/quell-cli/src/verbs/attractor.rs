@@ -1,11 +1,11 @@
 //! `quell attractor`: the motion on which a run ends, and its Lyapunov exponents.
 
 use clap::{Args, ValueHint};
-use quell::kind::{system_of, verbs};
 use quell::run::exponents::ExponentTimes;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::protocol::read_state_of;
 use quell::study::SystemStudy;
+use quell::verbs::{system_of, verbs};
 use quell::{Failure, quantity};
 
 use crate::answer::Answer;

@@ -1,11 +1,11 @@
 //! `quell basins`: which starts converge to which response.
 
 use clap::Args;
-use quell::kind::{system_of, verbs};
 use quell::run::basins::{BasinsRequest, PlaneAxis, StartLayout, default_plane, read_plane};
 use quell::run::varied::Range;
 use quell::study::SystemStudy;
 use quell::sweep::Running;
+use quell::verbs::{system_of, verbs};
 use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 use quell_model::units::Quantity;
 

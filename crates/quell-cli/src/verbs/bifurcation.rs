@@ -1,10 +1,10 @@
 //! `quell bifurcation`: the response along a parameter, swept up and down.
 
 use clap::{Args, ValueHint};
-use quell::kind::verbs;
 use quell::run::bifurcation::SweepRequest;
 use quell::run::varied::Range;
 use quell::sweep::Running;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 use super::numbers::{VariedArguments, count};

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use quell::kind::verbs;
 use quell::outcome::friction_export::EXTENSIONS;
+use quell::quantity;
+use quell::verbs::verbs;
 use quell::{Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
 
-use super::numbers::velocity;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, Outputs, PlotArguments, StudyArguments, answer, inputs};
 
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let largest = arguments
         .describing
         .as_deref()
-        .and_then(|text| complaints.take(velocity("--describing", text, study.as_ref())));
+        .and_then(|text| complaints.take(quantity::velocity(text, study.as_ref(), "--describing")));
     complaints.take(arguments.averages());
     let save = arguments.save.as_deref();
     let outputs = complaints.take(Outputs::prepare(save, EXTENSIONS, &[], &inputs));
@@ -74,11 +74,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let verbs = verbs(&study);
     let done = match largest {
         Some(largest) => verbs.describing(largest)?,
-        None => verbs.friction((!at.is_empty()).then_some(at), arguments.measured)?,
+        None => verbs.friction((!at.is_empty()).then_some(&at[..]), arguments.measured)?,
     };
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 
 fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Gathered) -> Vec<f64> {
-    texts.iter().filter_map(|text| complaints.take(velocity("--at", text, study))).collect()
+    texts
+        .iter()
+        .filter_map(|text| complaints.take(quantity::velocity(text, study, "--at")))
+        .collect()
 }

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::input::Inputs;
+use quell::needs::Needs;
 use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture;
 use quell::run::map::run as map;
 use quell::store::Store;
-use quell::sweep::{Grid, MOST_THREADS, MapQuantity, Needs, Plan, QUANTITIES, Running};
+use quell::sweep::{Grid, MOST_THREADS, MapQuantity, Plan, QUANTITIES, Running};
 use quell::table_file::TableFormat;
 use quell::{Complaint, Failure, Fault, Origin};
 
@@ -49,10 +50,10 @@ pub(crate) struct Arguments {
 /// The list of quantities in the help.
 fn quantities() -> String {
     let mut text = String::new();
-    for needs in Needs::ALL {
+    for needs in [Needs::SLIDING, Needs::CONTACTS, Needs::ONE_MASS, Needs::MOTIONS] {
         let _ = writeln!(text, "Quantities of {}:", needs.about());
         let all = QUANTITIES.iter().copied().flatten();
-        for quantity in all.filter(|quantity| quantity.needs == *needs) {
+        for quantity in all.filter(|quantity| quantity.needs == needs) {
             let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
         }
     }

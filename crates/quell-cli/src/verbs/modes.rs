@@ -2,7 +2,7 @@
 
 use clap::Args;
 use quell::Failure;
-use quell::kind::verbs;
+use quell::verbs::verbs;
 
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};

@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueHint};
 use quell::{Complaint, Study, quantity};
-use quell_model::units::{Quantity, Scales};
+use quell_model::units::Scales;
 
 use crate::arguments::Gathered;
 
@@ -46,20 +46,6 @@ pub(super) fn duration(
     study: Option<&Study>,
 ) -> Result<f64, Box<Complaint>> {
     quantity::duration(text, scales(study), option)
-}
-
-/// A velocity in the unit of the study, or with a unit of its own.
-pub(crate) fn velocity(
-    option: &'static str,
-    text: &str,
-    study: Option<&Study>,
-) -> Result<f64, Box<Complaint>> {
-    match study.map(Study::system) {
-        Some(Ok(system)) => {
-            quantity::of_system(text, Some(Quantity::Velocity), system.units(), option)
-        }
-        _ => quantity::parse(text, Quantity::Velocity, scales(study), option),
-    }
 }
 
 /// A finite number in the unit of the varied key, or with a unit of its own.

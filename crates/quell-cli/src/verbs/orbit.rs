@@ -2,10 +2,10 @@
 
 use clap::Args;
 use quell::Failure;
-use quell::kind::{system_of, verbs};
 use quell::run::orbit::Wanted;
 use quell::run::protocol::{Protocol, read_state_of};
 use quell::study::SystemStudy;
+use quell::verbs::{system_of, verbs};
 
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};

@@ -2,9 +2,9 @@
 
 use clap::Args;
 use quell::Failure;
-use quell::kind::verbs;
 use quell::run::probability::{ProbabilityRequest, ProbabilityStart};
 use quell::sweep::Running;
+use quell::verbs::verbs;
 
 use super::map::threads;
 use super::numbers::count;

@@ -1,10 +1,10 @@
 //! `quell resonances`: speeds at which waves of a disc meet, and dither frequencies that keep a range of speeds clear.
 
 use clap::{Args, ValueEnum, ValueHint};
-use quell::kind::verbs;
 use quell::run::disc::resonances::{Order, ResonancesRequest};
 use quell::run::system::reach::without_waves;
 use quell::study::SystemStudy;
+use quell::verbs::verbs;
 use quell::{Failure, Study, quantity};
 
 use super::numbers::pair;

@@ -1,8 +1,8 @@
 //! `quell response`: the steady response, the effect of the dither on it, and the cost of the dither.
 
 use clap::{Args, ValueHint};
-use quell::kind::{moving_system, verbs};
 use quell::run::response::{ResponseRequest, ResponseTexts};
+use quell::verbs::{moving_system, verbs};
 use quell::{Complaint, Failure};
 
 use crate::answer::Answer;

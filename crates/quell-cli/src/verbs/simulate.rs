@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
-use quell::kind::{moving_system, verbs};
 use quell::run::simulate::MotionRequest;
 use quell::run::system::start::{duration as duration_of_motion, read_state};
 use quell::sound::SoundOptions;
 use quell::study::{SystemStudy, UnitSystem};
+use quell::verbs::{moving_system, verbs};
 use quell::{Complaint, Failure, Fault, Origin};
 
 use super::numbers::duration;

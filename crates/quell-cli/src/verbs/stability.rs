@@ -1,8 +1,8 @@
 //! `quell stability`: stability of steady sliding by averaging or eigenvalues, of a disc by Floquet exponents too.
 
 use clap::{Args, ValueHint};
-use quell::kind::verbs;
 use quell::run::system::tracked::TrackRequest;
+use quell::verbs::verbs;
 use quell::{Complaint, Failure, Fault, Origin, Study};
 
 use super::numbers::{number, window};

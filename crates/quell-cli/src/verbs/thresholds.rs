@@ -2,12 +2,12 @@
 
 use clap::{Args, ValueHint};
 use quell::Failure;
-use quell::kind::{system_of, verbs};
 use quell::run::protocol::{Protocol, read_state_of};
 use quell::run::system::start;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::thresholds::curves::CurvesRequest;
 use quell::study::SystemStudy;
+use quell::verbs::{system_of, verbs};
 
 use super::numbers::{VariedArguments, window};
 use crate::answer::Answer;

@@ -783,7 +783,7 @@ class Study(CheckedStudy):
         Parameters
         ----------
         frequency :
-            Range of dither frequencies: of a belt R, of a system angular frequencies; in a study in SI Hz (belt) or rad/s (system), or as
+            Range of dither frequencies: angular frequencies in the units of the study, of a belt without units R, or as
             texts with units such as ``("5kHz", "40kHz")`` [default: that of a measured actuator, or from a tenth, but
             above the vibration, to 10 times the frequency of the dither].
 

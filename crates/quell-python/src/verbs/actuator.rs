@@ -1,6 +1,6 @@
 //! `actuator`: where over frequency the actuator can give the dither that quenches.
 
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;

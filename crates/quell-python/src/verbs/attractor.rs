@@ -1,8 +1,8 @@
 //! `attractor`: the motion on which a run ends, and its Lyapunov exponents.
 
-use quell::kind::{system_of, verbs};
 use quell::run::exponents::ExponentTimes;
 use quell::run::found_attractor::AttractorRequest;
+use quell::verbs::{system_of, verbs};
 use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use quell::kind::{system_of, verbs};
 use quell::run::basins::{BasinsRequest, StartLayout, default_plane, read_plane};
 use quell::run::varied::Range;
 use quell::study::SystemStudy;
+use quell::verbs::{system_of, verbs};
 use quell::{Failure, Study, quantity};
 use quell_model::units::Quantity;
 

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use quell::kind::verbs;
 use quell::run::bifurcation::SweepRequest;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 use super::map::{Counter, Watched};

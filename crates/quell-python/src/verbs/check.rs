@@ -1,6 +1,6 @@
 //! `check`: the values of a study.
 
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;

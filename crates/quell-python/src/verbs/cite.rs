@@ -1,7 +1,7 @@
 //! `cite`: the equations and papers that a study's computations use.
 
 use quell::Study;
-use quell::kind::verbs;
+use quell::verbs::verbs;
 
 use crate::answer::NativeAnswer;
 

@@ -1,6 +1,6 @@
 //! `design`: the least dither that is quiet over a box of operating points.
 
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;

@@ -1,6 +1,6 @@
 //! `modes`: natural frequencies and shapes of a disc.
 
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;

@@ -1,8 +1,8 @@
 //! `orbit`: the periodic response and its Floquet multipliers.
 
-use quell::kind::{system_of, verbs};
 use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
+use quell::verbs::{system_of, verbs};
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;

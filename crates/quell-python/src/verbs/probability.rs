@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use quell::Study;
-use quell::kind::verbs;
 use quell::run::probability::{ProbabilityRequest, ProbabilityStart};
+use quell::verbs::verbs;
 
 use super::map::{Counter, Watched};
 use crate::answer::NativeAnswer;

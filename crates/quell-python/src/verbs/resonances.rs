@@ -1,9 +1,9 @@
 //! `resonances`: speeds at which waves of a disc meet, or how far the dither of a system reaches its contacts.
 
-use quell::kind::verbs;
 use quell::run::disc::resonances::{Order, ResonancesRequest};
 use quell::run::system::reach::without_waves;
 use quell::study::SystemStudy;
+use quell::verbs::verbs;
 use quell::{Failure, Study, quantity};
 
 use super::refused;

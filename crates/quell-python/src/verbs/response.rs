@@ -1,7 +1,7 @@
 //! `response`: the steady response, the effect of the dither on it, and the cost of the dither.
 
-use quell::kind::{moving_system, verbs};
 use quell::run::response::{ResponseRequest, ResponseTexts};
+use quell::verbs::{moving_system, verbs};
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;

@@ -1,10 +1,11 @@
 //! `schema`: the JSON Schema of a study file, and the lists with which classes and arguments are compared.
 
 use pyo3::prelude::*;
+use quell::needs::Needs;
 use quell::schema::schema as front_door;
 use quell::study::UnitSystem;
 use quell::study::vocabulary::{self, DocumentKind};
-use quell::sweep::{Needs, QUANTITIES};
+use quell::sweep::QUANTITIES;
 
 use crate::convert;
 
@@ -36,7 +37,7 @@ pub(crate) fn keys() -> Vec<KeyTuple> {
 pub(crate) fn quantities() -> Vec<(&'static str, &'static str, &'static str)> {
     let of_kind = |kind: &'static str| {
         let all = QUANTITIES.iter().copied().flatten();
-        let its = all.filter(move |quantity| kind != "disc" || quantity.needs == Needs::Sliding);
+        let its = all.filter(move |quantity| kind != "disc" || quantity.needs == Needs::SLIDING);
         its.map(move |quantity| (kind, quantity.name, quantity.about))
     };
     ["belt", "disc", "system"].into_iter().flat_map(of_kind).collect()

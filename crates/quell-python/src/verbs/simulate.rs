@@ -1,10 +1,10 @@
 //! `simulate`: one trajectory with its events.
 
-use quell::kind::{moving_system, verbs};
 use quell::run::simulate::{MotionRequest, MotionStart};
 use quell::run::system::start;
 use quell::sound::SoundOptions;
 use quell::study::{SystemStudy, UnitSystem};
+use quell::verbs::{moving_system, verbs};
 use quell::{Complaint, Failure, Study};
 
 use crate::answer::NativeAnswer;

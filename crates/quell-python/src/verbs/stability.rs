@@ -1,7 +1,7 @@
 //! `stability`: stability of steady sliding by averaging, of a disc or system by eigenvalues or Floquet exponents.
 
-use quell::kind::verbs;
 use quell::run::system::tracked::TrackRequest;
+use quell::verbs::verbs;
 use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;

@@ -1,10 +1,10 @@
 //! `thresholds`: exact parameter values at which the response changes, and threshold curves in two parameters.
 
-use quell::kind::{system_of, verbs};
 use quell::run::protocol::Protocol;
 use quell::run::system::start;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::thresholds::curves::CurvesRequest;
+use quell::verbs::{system_of, verbs};
 use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;

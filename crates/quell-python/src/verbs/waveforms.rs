@@ -1,6 +1,6 @@
 //! `waveforms`: the least dither of each waveform that quenches, and its cost.
 
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;

@@ -3,7 +3,7 @@
 use quell_input::complaint::{Complaint, Complaints, Origin};
 use quell_input::document::Table;
 use quell_model::System;
-use quell_model::units::Scales;
+use quell_model::units::{Scales, UnitSystem};
 
 use super::StudyOf;
 use super::belt::{BeltSetup, BeltStudy};
@@ -120,6 +120,17 @@ impl Study {
     /// The error where a study of the kind `required` is needed.
     fn not_a(&self, required: &str) -> Box<Complaint> {
         Box::new(wrong_kind(required, self.kind().name(), Origin::Whole))
+    }
+
+    /// The units of the numbers of a study and of its answers, those of a belt with its mass and of a system.
+    pub fn units(&self) -> UnitSystem {
+        match self.kind() {
+            Kind::Belt(setup) => {
+                setup.belt().scales().map_or(UnitSystem::None, |scales| scales.units())
+            }
+            Kind::Disc(_) => self.file_units(),
+            Kind::System(setup) => setup.units(),
+        }
     }
 
     /// Mass and stiffness of a belt's study in SI.

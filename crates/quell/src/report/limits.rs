@@ -3,67 +3,27 @@
 use quell_model::units::Quantity;
 
 use super::parts::{ReportedAnswer, Unexamined};
+use super::plan::amplitude_of;
+use crate::run::belt_system::system_of;
+use crate::run::system::{frequency_in_words, in_units};
 use crate::study::disc::ModeSource;
-use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStudy};
-use crate::words::{digits, in_words, plural, start_in_words};
+use crate::study::{DiscStudy, Study, SystemStudy};
+use crate::words::{digits, plural};
 
 /// The most names that are written of a list.
 const MOST_NAMES: usize = 12;
 
 /// What no verb of the report examines.
 pub(super) fn of(study: &Study, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
-    let mut all = match study.kind() {
-        Kind::Belt(setup) => of_belt(&study.narrowed(setup.as_ref())),
-        Kind::Disc(setup) => of_disc(&study.narrowed(setup.as_ref())),
-        Kind::System(setup) => of_system(&study.narrowed(setup.as_ref()), answers),
+    let mut all = match study.disc() {
+        Ok(disc) => of_disc(&disc),
+        Err(_) => {
+            system_of(study).map_or_else(|_| Vec::new(), |system| of_system(&system, answers))
+        }
     };
     all.extend(windows(answers));
     all.extend(amplitudes_of_zero(study));
     all.push(parameters(study));
-    all
-}
-
-fn of_belt(study: &BeltStudy) -> Vec<Unexamined> {
-    let start = start_in_words(study);
-    let mut all = vec![Unexamined::new(
-        "Other starts",
-        format!(
-            "The runs began {start}. Another start may end on another motion; `quell basins` examines them."
-        ),
-    )];
-    let belt = study.belt();
-    let law = belt.friction().kind().name();
-    all.push(Unexamined::new(
-        "Other friction laws",
-        match belt.friction().range() {
-            Some(range) => format!(
-                "Only the law “{law}” was used. It holds for slip velocities from {} to {} ({}).",
-                in_words(study, Quantity::Velocity, range.lower),
-                in_words(study, Quantity::Velocity, range.upper),
-                range.limit
-            ),
-            None => format!("Only the law “{law}” was used, with the numbers of the study."),
-        },
-    ));
-    all.push(Unexamined::new(
-        "Other motions of the structure",
-        format!(
-            "The structure has one degree of freedom, of natural frequency {}; its other modes are not in the model.",
-            in_words(study, Quantity::FrequencyRatio, 1.0)
-        ),
-    ));
-    let ratio = if study.scales().is_some() { "" } else { " ratio R =" };
-    for dither in belt.dithers() {
-        all.push(Unexamined::new(
-            "Other dither frequencies",
-            format!(
-                "The {} dither has the frequency{} {} only; `quell map` computes maps over amplitude and frequency.",
-                dither.direction.name(),
-                ratio,
-                in_words(study, Quantity::FrequencyRatio, dither.frequency_ratio)
-            ),
-        ));
-    }
     all
 }
 
@@ -118,7 +78,7 @@ fn of_system(study: &SystemStudy, answers: &[ReportedAnswer]) -> Vec<Unexamined>
     if let Some(start) = start {
         all.push(Unexamined::new(
             "Other starts",
-            format!("The runs began {start}. Another start may end on another motion; `quell basins --plane` examines them."),
+            format!("The runs began {start}. Another start may end on another motion; `quell basins` examines them."),
         ));
     }
     let system = study.system();
@@ -144,6 +104,13 @@ fn of_system(study: &SystemStudy, answers: &[ReportedAnswer]) -> Vec<Unexamined>
             ),
         ));
     }
+    if let [_] = names {
+        all.push(Unexamined::new(
+            "Other motions of the structure",
+            "The structure has one degree of freedom; its other modes are not in the model.",
+        ));
+    }
+    let units = study.units();
     for contact in &system.contacts {
         let law = contact.friction.kind().name();
         let load = if contact.normal.is_some() {
@@ -151,9 +118,26 @@ fn of_system(study: &SystemStudy, answers: &[ReportedAnswer]) -> Vec<Unexamined>
         } else {
             "is prescribed"
         };
+        let range = contact.friction.range().map_or(String::new(), |range| {
+            let [lower, upper] =
+                [range.lower, range.upper].map(|end| in_units(units, Quantity::Velocity, end));
+            format!(" The law holds for slip velocities from {lower} to {upper} ({}).", range.limit)
+        });
         all.push(Unexamined::new(
             "Other friction laws",
-            format!("Contact {} has the law “{law}” only; its normal load {load}.", contact.name),
+            format!(
+                "Contact {} has the law “{law}” only; its normal load {load}.{range}",
+                contact.name
+            ),
+        ));
+    }
+    for wave in system.waves() {
+        all.push(Unexamined::new(
+            "Other dither frequencies",
+            format!(
+                "A dither has {} only; `quell map` computes maps over amplitude and frequency.",
+                frequency_in_words(units, wave.lowest())
+            ),
         ));
     }
     all
@@ -172,16 +156,8 @@ fn windows(answers: &[ReportedAnswer]) -> Vec<Unexamined> {
 
 /// Dithers of amplitude 0, which have no window of thresholds.
 fn amplitudes_of_zero(study: &Study) -> Vec<Unexamined> {
-    let amplitudes: Vec<f64> = match study.kind() {
-        Kind::Belt(setup) => setup.belt().dithers().iter().map(|dither| dither.amplitude).collect(),
-        Kind::Disc(_) => Vec::new(),
-        Kind::System(setup) => {
-            let waves = |input: &quell_model::system::Input| {
-                input.profile.waves().iter().map(|wave| wave.amplitude).fold(0.0, f64::max)
-            };
-            setup.system().inputs.iter().map(waves).collect()
-        }
-    };
+    let Ok(system) = system_of(study) else { return Vec::new() };
+    let amplitudes: Vec<f64> = system.system().inputs.iter().map(amplitude_of).collect();
     let zero = amplitudes.iter().filter(|amplitude| **amplitude == 0.0).count();
     if zero == 0 {
         return Vec::new();

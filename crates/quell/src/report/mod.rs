@@ -24,12 +24,11 @@ mod plan;
 use serde_json::{Value as Json, json};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::kind::verbs;
 use crate::output::Output;
 use crate::run::sketch;
 use crate::study::{Kind, Study};
-use crate::study::{not_periodic, varies_in_time};
 use crate::sweep::Progress;
+use crate::verbs::verbs;
 
 pub use parts::StudyReport;
 
@@ -66,12 +65,8 @@ pub fn run_with_progress(
     request: &ReportRequest,
     progress: &dyn Progress,
 ) -> Result<StudyReport, Failure> {
-    if let Some(table) = study.varies_by() {
-        return Err(varies_in_time("report", table).into());
-    }
-    if let Some(key) = study.noise() {
-        return Err(not_periodic("report", key).into());
-    }
+    let verbs = verbs(study);
+    verbs.has("report")?;
     let plan = planned(study);
     for name in &request.without {
         if !plan.iter().any(|step| step.verb == name) {
@@ -83,7 +78,6 @@ pub fn run_with_progress(
             );
         }
     }
-    let verbs = verbs(study);
     let (mut answers, mut unexamined) = (Vec::new(), Vec::new());
     progress.begin(plan.len(), 0);
     for step in plan {
@@ -94,7 +88,7 @@ pub fn run_with_progress(
             progress.advance(1);
             continue;
         }
-        match plan::ask(verbs.as_ref(), asked) {
+        match plan::ask(&verbs, asked) {
             Ok(outcome) => {
                 let facts = outcome.facts();
                 answers.push(ReportedAnswer { verb, heading, start, chosen, outcome, facts });

@@ -4,9 +4,9 @@ use serde_json::Value as Json;
 
 use crate::cite::Sources;
 use crate::html::{HtmlPage, escape, symbols, table};
-use crate::kind::verbs;
 use crate::plot;
 use crate::study::Kind;
+use crate::verbs::verbs;
 use crate::words::{capital, digits};
 
 use super::facts::{self, FactRow};

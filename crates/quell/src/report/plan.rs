@@ -2,20 +2,22 @@
 
 use std::sync::atomic::AtomicBool;
 
-use quell_design::atlas::AtlasPoint;
-use quell_model::Direction;
-use quell_model::units::Quantity;
+use quell_model::System;
+use quell_model::parameter::indexed;
+use quell_model::system::{Input, InputTarget};
 
-use crate::kind::{Reply, Verbs};
+use crate::run::belt_system::system_of;
 use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
 use crate::run::response::ResponseRequest;
+use crate::run::system::start::{StateNumbers, start_in_words};
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::varied::key_of;
-use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStart, SystemStudy};
+use crate::study::{DiscStudy, Study, SystemStudy};
 use crate::sweep::Running;
-use crate::words::{digits, start_in_words};
+use crate::verbs::{Reply, Verbs};
+use crate::words::digits;
 
 /// The window of thresholds, in amplitudes of the study.
 const WINDOW: (f64, f64) = (0.1, 2.0);
@@ -29,7 +31,6 @@ pub(super) enum ReportedVerb {
     Friction,
     Resonances,
     Thresholds(ThresholdsRequest),
-    Atlas,
     Design,
     Actuator,
     Probability,
@@ -56,54 +57,18 @@ const BRANCH: &str = "the base response, continued from steady sliding";
 
 /// The verbs that a study of this kind has, in the order of the report.
 pub(super) fn planned(study: &Study) -> Vec<ReportStep> {
-    match study.kind() {
-        Kind::Belt(setup) => of_belt(&study.narrowed(setup.as_ref())),
-        Kind::Disc(setup) => of_disc(&study.narrowed(setup.as_ref())),
-        Kind::System(setup) => of_system(&study.narrowed(setup.as_ref())),
+    match study.disc() {
+        Ok(disc) => of_disc(&disc),
+        Err(_) => system_of(study).map_or_else(|_| Vec::new(), |system| of_system(study, &system)),
     }
 }
 
 /// Whether a dither acts.
 pub(super) fn is_dithered(study: &Study) -> bool {
-    match study.kind() {
-        Kind::Belt(setup) => setup.belt().dithers().iter().any(|dither| dither.amplitude != 0.0),
-        Kind::Disc(setup) => setup.disc().dither().frequency_ratio().is_some(),
-        Kind::System(setup) => setup.system().is_dithered(),
+    match study.disc() {
+        Ok(disc) => disc.disc().dither().frequency_ratio().is_some(),
+        Err(_) => system_of(study).is_ok_and(|system| system.system().is_dithered()),
     }
-}
-
-fn of_belt(study: &BeltStudy) -> Vec<ReportStep> {
-    let start = start_in_words(study);
-    let mut steps = vec![
-        ReportStep::new("stability", "Stability of steady sliding", SMALL, ReportedVerb::Stability),
-        ReportStep::new("response", "Steady response", &start, ReportedVerb::Response),
-        ReportStep::new("orbit", "Periodic response", BRANCH, ReportedVerb::Orbit),
-    ];
-    let belt = study.belt();
-    for (place, dither) in belt.dithers().iter().enumerate() {
-        // More normal dither than load would open the contact.
-        let room = match dither.direction {
-            Direction::Tangential => f64::INFINITY,
-            Direction::Normal => {
-                belt.normal_load() - belt.total_amplitude(Direction::Normal) + dither.amplitude
-            }
-        };
-        let path = key_of(study, &belt.dither_path(place, "amplitude"));
-        let unit = study.scales().map_or(1.0, |scales| scales.per_unit(Quantity::Force));
-        steps.extend(thresholds(&path, unit * dither.amplitude, unit * room));
-    }
-    if AtlasPoint::of_belt(belt).is_ok() {
-        let heading = "Thresholds among those of all belts";
-        steps.push(ReportStep::new("atlas", heading, BRANCH, ReportedVerb::Atlas));
-    }
-    let dithered = !belt.dithers().is_empty();
-    steps.extend(questions(Questions {
-        design: dithered && study.design().is_some(),
-        actuator: dithered && study.actuator().is_some(),
-        probability: study.uncertainty().is_some(),
-    }));
-    steps.push(ReportStep::new("friction", "Friction law", NO_START, ReportedVerb::Friction));
-    steps
 }
 
 fn of_disc(study: &DiscStudy) -> Vec<ReportStep> {
@@ -128,14 +93,8 @@ fn of_disc(study: &DiscStudy) -> Vec<ReportStep> {
     steps
 }
 
-fn of_system(study: &SystemStudy) -> Vec<ReportStep> {
-    let start = match study.initial() {
-        SystemStart::Rest => "from rest",
-        SystemStart::Sliding => "from steady sliding",
-        SystemStart::Squealing => "from the undithered limit cycle",
-        SystemStart::Base => "from the base response",
-        SystemStart::Values(_) | SystemStart::Described { .. } => "from the state of the study",
-    };
+fn of_system(declared: &Study, study: &SystemStudy) -> Vec<ReportStep> {
+    let start = &start_in_words(study, &StateNumbers::new());
     let mut steps = vec![
         ReportStep::new("stability", "Stability of steady sliding", SMALL, ReportedVerb::Stability),
         ReportStep::new("modes", "Natural frequencies", NO_START, ReportedVerb::Modes),
@@ -144,19 +103,36 @@ fn of_system(study: &SystemStudy) -> Vec<ReportStep> {
     ];
     let inputs = &study.system().inputs;
     for (place, input) in inputs.iter().enumerate() {
-        let path = match inputs.len() {
-            1 => "dither.amplitude".to_owned(),
-            _ => format!("dither[{place}].amplitude"),
-        };
-        let amplitude = input.profile.waves().first().map_or(0.0, |wave| wave.amplitude);
-        steps.extend(thresholds(&path, amplitude, f64::INFINITY));
+        let path = indexed("dither", place, inputs.len(), "amplitude");
+        let amplitude = amplitude_of(input);
+        let room = room_for(study.system(), input);
+        steps.extend(thresholds(&key_of(declared, &path), amplitude, room));
     }
     steps.extend(questions(Questions {
         design: !inputs.is_empty() && study.design().is_some(),
         actuator: !inputs.is_empty() && study.actuator().is_some(),
         probability: study.uncertainty().is_some(),
     }));
+    steps.push(ReportStep::new("friction", "Friction law", NO_START, ReportedVerb::Friction));
     steps
+}
+
+/// The amplitude of an input: that of its largest wave.
+pub(super) fn amplitude_of(input: &Input) -> f64 {
+    input.profile.waves().iter().map(|wave| wave.amplitude).fold(0.0, f64::max)
+}
+
+/// The largest amplitude at which an input leaves the contact closed on whose prescribed load it acts.
+fn room_for(system: &System, input: &Input) -> f64 {
+    let InputTarget::NormalLoad { contact, .. } = input.target else { return f64::INFINITY };
+    let same = |other: &&Input| matches!(other.target, InputTarget::NormalLoad { contact: its, .. } if its == contact);
+    let all: f64 = system.inputs.iter().filter(same).map(amplitude_of).sum();
+    let loaded = &system.contacts[contact];
+    if loaded.normal.is_some() {
+        f64::INFINITY
+    } else {
+        loaded.normal_load - all + amplitude_of(input)
+    }
 }
 
 /// The tables of a study that ask a question.
@@ -208,7 +184,7 @@ fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<ReportStep> {
 }
 
 /// The answer of a verb.
-pub(super) fn ask(verbs: &dyn Verbs, asked: ReportedVerb) -> Reply {
+pub(super) fn ask(verbs: &Verbs, asked: ReportedVerb) -> Reply {
     match asked {
         ReportedVerb::Modes => verbs.modes(),
         ReportedVerb::Stability => verbs.stability(),
@@ -217,7 +193,6 @@ pub(super) fn ask(verbs: &dyn Verbs, asked: ReportedVerb) -> Reply {
         ReportedVerb::Friction => verbs.friction(None, false),
         ReportedVerb::Resonances => verbs.resonances(ResonancesRequest::default()),
         ReportedVerb::Thresholds(request) => verbs.thresholds(&request),
-        ReportedVerb::Atlas => verbs.atlas(false),
         ReportedVerb::Design => verbs.design(),
         ReportedVerb::Actuator => verbs.actuator(None),
         ReportedVerb::Probability => {

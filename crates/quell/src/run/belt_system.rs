@@ -8,19 +8,8 @@ use quell_model::units::Quantity;
 use crate::complaint::Failure;
 use crate::study::{
     BeltStudy, DescribedSystem, GivenSize, RecordSettings, Solver, Study, SystemStart, SystemStudy,
-    not_periodic, plausible,
+    plausible,
 };
-
-/// The system of a belt, for a verb about motions that repeat.
-///
-/// # Errors
-/// Noise, which has no period; a law whose numbers are out of their bounds in SI.
-pub(crate) fn of(study: &BeltStudy, verb: &str) -> Result<SystemStudy, Failure> {
-    if let Some(key) = Study::from(study).noise() {
-        return Err(not_periodic(verb, key).into());
-    }
-    described(study)
-}
 
 /// The system of a belt, or a system itself.
 ///

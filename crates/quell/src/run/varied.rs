@@ -1,10 +1,8 @@
 //! One number of a study varied over a range: `--parameter PATH --from A --to B --points N`.
 
-use quell_model::units::Quantity;
-
 use crate::study::vocabulary::size::SignalMeasure;
 use crate::study::vocabulary::{DocumentKind, Role, join};
-use crate::study::{BeltStudy, Kind, SystemStudy, key_at, with_unit};
+use crate::study::{Kind, Study, SystemStudy, key_at, with_unit};
 
 /// What a varied number must be.
 pub(super) const OF_THE_EQUATIONS: &str = "a number of the equations, such as one of a contact, a friction law or a dither; this one changes none of them";
@@ -64,11 +62,6 @@ pub(super) fn not_a_peak(path: &str, kind: DocumentKind) -> Option<&'static str>
 }
 
 /// The key by which a study gives a number of the equations: a frequency in hertz in a study with units.
-pub fn key_of(study: &BeltStudy, path: &str) -> String {
+pub fn key_of(study: &Study, path: &str) -> String {
     if study.scales().is_some() { with_unit(path) } else { path.to_owned() }
-}
-
-/// The quantity of a number of the equations.
-pub(crate) fn quantity_of(study: &BeltStudy, path: &str) -> Quantity {
-    study.address(path).ok().and_then(|address| address.quantity).unwrap_or(Quantity::Ratio)
 }

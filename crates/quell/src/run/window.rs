@@ -43,7 +43,7 @@ pub struct WindowedResponse {
 /// # Errors
 /// A window that does not go forward; a start that does not exist; [`Failure::Failed`] if the engine stops.
 pub fn run(study: &SystemStudy, window: (f64, f64)) -> Result<WindowedResponse, Failure> {
-    has_equations(study, "response")?;
+    has_equations(study, "response --window")?;
     let (system, start) = (study.system(), start_of(study)?);
     let (from, to) = window;
     if !(from >= start.time && from < to && to.is_finite()) {

@@ -7,7 +7,7 @@ use quell_model::units::Quantity;
 use super::points::{ChunkPoints, PointComputation, PointValue, Subject};
 use super::status::Status;
 use crate::cite::Task;
-use crate::study::Study;
+use crate::needs::Needs;
 
 /// The kind of the values of a variable, in the units of the study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,45 +50,6 @@ impl Variable {
         all.sort_unstable();
         all.dedup();
         all
-    }
-}
-
-/// What a quantity needs of a study.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Needs {
-    /// Nothing: it is one of small motions, or of averages over a dither.
-    Sliding,
-    /// Contacts of known tangents, whose friction is averaged over a dither.
-    Contacts,
-    /// One mass on a moving surface, of which the limit of high frequency is known.
-    OneMass,
-    /// Motions that repeat themselves: contacts, and no noise.
-    Motions,
-}
-
-impl Needs {
-    /// All, from the fewest.
-    pub const ALL: &'static [Self] = &[Self::Sliding, Self::Contacts, Self::OneMass, Self::Motions];
-
-    /// What it needs, in words.
-    pub fn about(self) -> &'static str {
-        match self {
-            Self::Sliding => "any study",
-            Self::Contacts => "any belt or system",
-            Self::OneMass => "one mass on a moving surface",
-            Self::Motions => "any belt or system whose dither repeats itself",
-        }
-    }
-
-    pub(super) fn are_met(self, study: &Study) -> bool {
-        match self {
-            Self::Sliding => true,
-            Self::Contacts | Self::Motions => study.disc().is_err(),
-            Self::OneMass => {
-                let system = study.model().at(&[]);
-                system.is_ok_and(|system| system.one_averaged_mass().is_some())
-            }
-        }
     }
 }
 

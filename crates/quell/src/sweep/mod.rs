@@ -24,7 +24,7 @@ mod status;
 
 pub use chunks::Chunks;
 pub use grid::{Grid, GridAxis, MOST_POINTS};
-pub use map_quantity::{MapQuantity, Needs, Variable, VariableKind};
+pub use map_quantity::{MapQuantity, Variable, VariableKind};
 pub use plan::Plan;
 pub use quantity::QUANTITIES;
 pub(crate) use quantity::{SlidingGrowth, growth_of_disc, least_quiet};

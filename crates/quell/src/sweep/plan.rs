@@ -9,7 +9,7 @@ use super::points::{ChunkPoints, Subject};
 use super::quantity::SETTLED;
 use super::sheet::{Data, Sheet};
 use crate::complaint::Complaint;
-use crate::study::{Study, varies_in_time};
+use crate::study::Study;
 
 /// A map to be computed.
 #[derive(Clone, Debug)]
@@ -34,9 +34,6 @@ impl Plan {
         asked: &[&'static MapQuantity],
     ) -> Result<Self, Box<Complaint>> {
         let study = study.into();
-        if let Some(table) = study.varies_by() {
-            return Err(Box::new(varies_in_time("map", table)));
-        }
         for quantity in asked {
             quantity.accepts(&study)?;
         }

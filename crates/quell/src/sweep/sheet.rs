@@ -212,13 +212,8 @@ struct UnitNames {
 impl UnitNames {
     fn of(study: &Study) -> Self {
         let disc = study.disc().ok();
-        let units = match (study.belt(), study.system()) {
-            (Ok(belt), _) => belt.units(),
-            (_, Ok(system)) => system.units(),
-            _ => study.file_units(),
-        };
         let is_disc = disc.is_some();
-        Self { units, disc: disc.and_then(|study| DiscUnits::of(&study)), is_disc }
+        Self { units: study.units(), disc: disc.and_then(|study| DiscUnits::of(&study)), is_disc }
     }
 
     fn of_variable(&self, variable: &Variable) -> String {

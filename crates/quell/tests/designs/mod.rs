@@ -1,6 +1,6 @@
 //! The answer of `design` about the text of a study, for several test files.
 
-use quell::kind::verbs;
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 use serde_json::Value as Json;
 

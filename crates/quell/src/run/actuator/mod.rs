@@ -94,7 +94,7 @@ impl ActuatorFound {
 pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFound, Failure> {
     has_equations(study, "actuator")?;
     let system = study.system();
-    refused_where_averaged(system, "actuator")?;
+    refused_where_averaged(study, "actuator")?;
     let actuator = asked(study)?;
     moves(study)?;
     let input = designed(study);

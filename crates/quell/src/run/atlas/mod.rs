@@ -22,7 +22,7 @@ pub(crate) use round_numbers::{
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::parallel::Parallel;
-use crate::run::varied::{key_of, quantity_of};
+use crate::run::varied::key_of;
 use crate::study::BeltStudy;
 use crate::sweep::Running;
 use crate::words::in_words;
@@ -92,7 +92,8 @@ pub fn run(study: &BeltStudy, exact: bool) -> Result<AtlasFound, Failure> {
 /// The complaint about a key that places a study outside, in the units of the study.
 fn complaint(study: &BeltStudy, outside: &OutsideAtlas) -> Complaint {
     let OutsideAtlas { key, value, word, range, allowed } = outside;
-    let quantity = quantity_of(study, key);
+    let address = study.address(key).ok();
+    let quantity = address.and_then(|address| address.quantity).unwrap_or(Quantity::Ratio);
     let scale = study.scales().and_then(|scales| scales.one(quantity)).map_or(1.0, |(one, _)| one);
     let words = |value: f64| in_words(study, quantity, value);
     let allowed = match range {
@@ -110,7 +111,7 @@ fn complaint(study: &BeltStudy, outside: &OutsideAtlas) -> Complaint {
     };
     let number = value.map(|value| Json::from(scale * value));
     let value = number.or(word.map(Json::from)).unwrap_or(Json::Null);
-    let key = key_of(study, key);
+    let key = key_of(&study.into(), key);
     Complaint::new(fault, key, Origin::Whole, value, allowed)
 }
 

@@ -18,8 +18,8 @@ pub use spectra::ComparedSpectrum;
 
 use super::recorded_motion::{ObservedMotion, RecordUnits};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::kind::verbs;
 use crate::study::Study;
+use crate::verbs::verbs;
 use crate::words::digits;
 use spectra::cycles;
 

@@ -87,7 +87,7 @@ pub struct SlowBalance {
 /// # Errors
 /// A complaint about an amplitude that is not above 0; [`Failure::Failed`] without averaged sliding or if an average has no value.
 pub fn run(study: &SystemStudy, largest: f64) -> Result<DescribedContacts, Failure> {
-    has_equations(study, "friction")?;
+    has_equations(study, "friction --describing")?;
     is_amplitude(largest)?;
     let system = study.system();
     let prepared = DitheredSystem::new(system).map_err(failed)?;

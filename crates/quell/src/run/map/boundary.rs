@@ -32,11 +32,7 @@ pub fn boundaries(grid: &Grid) -> Vec<Boundary> {
 /// The axis of the amplitude of the first dither, and the other one, in a plane of two axes.
 pub fn amplitude_and_other(grid: &Grid) -> Option<(&GridAxis, &GridAxis)> {
     let [first, second] = grid.axes() else { return None };
-    let study = grid.study();
-    let amplitude = match study.belt() {
-        Ok(belt) => key_of(&belt, DITHER_AMPLITUDE.path),
-        Err(_) => DITHER_AMPLITUDE.path.to_owned(),
-    };
+    let amplitude = key_of(grid.study(), DITHER_AMPLITUDE.path);
     match (first.path == amplitude, second.path == amplitude) {
         (true, false) => Some((first, second)),
         (false, true) => Some((second, first)),

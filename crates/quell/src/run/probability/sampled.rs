@@ -133,7 +133,7 @@ impl SampledKind for SystemStudy {
         }
         has_equations(self, "probability")?;
         if self.system().is_dithered() {
-            refused_where_averaged(self.system(), "probability")?;
+            refused_where_averaged(self, "probability")?;
         }
         Ok(())
     }

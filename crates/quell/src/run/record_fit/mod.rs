@@ -21,8 +21,8 @@ use super::decay::{pattern, record_warnings};
 use super::named_estimates::{NamedEstimates, ReportedParameter};
 use super::recorded_motion::ObservedMotion;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::kind::verbs;
 use crate::study::{Change, Study};
+use crate::verbs::verbs;
 use model::RecordModel;
 use request::free_numbers;
 

@@ -16,10 +16,10 @@ use quell_numerics::damped_least_squares::FittedFunction;
 
 use super::request::FreeNumber;
 use crate::complaint::Failure;
-use crate::kind::verbs;
 use crate::run::failed;
 use crate::run::recorded_motion::ObservedMotion;
 use crate::study::Study;
+use crate::verbs::verbs;
 
 /// Change of the readings in a step of a difference, relative to their size.
 const CHANGE: f64 = 1e-4;

@@ -19,8 +19,8 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::refused_of_system;
 use crate::fields::Fields;
+use crate::needs::StudyVerb;
 use crate::study::{SystemStudy, UnitSystem};
 use crate::words::digits;
 
@@ -34,10 +34,12 @@ pub(crate) fn not_averaged(why: AveragingError) -> Failure {
     failed("stability", why)
 }
 
-/// Rejects a verb on a measured frequency response, which has no equations.
+/// Rejects a study that does not meet the needs of a verb, and a measured frequency response, which has no equations.
 pub(crate) fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
     if study.frequency_response().is_none() {
-        return refused_of_system(study, verb);
+        let needs = StudyVerb::named(verb).map(|verb| verb.needs);
+        let refused = needs.and_then(|needs| needs.refused(&study.into(), verb));
+        return refused.map_or(Ok(()), |complaint| Err(complaint.into()));
     }
     let key = "system.frequency_response";
     let allowed = format!(
@@ -56,7 +58,7 @@ pub(crate) fn oscillating(units: UnitSystem, frequency: f64) -> String {
 }
 
 /// A frequency with its unit: in hertz where the study has units.
-pub(in crate::run) fn frequency_in_words(units: UnitSystem, frequency: f64) -> String {
+pub(crate) fn frequency_in_words(units: UnitSystem, frequency: f64) -> String {
     match units {
         UnitSystem::None => format!("the angular frequency {}", digits(frequency)),
         _ => format!("{} Hz", digits(frequency / std::f64::consts::TAU)),

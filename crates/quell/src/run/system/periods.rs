@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use quell_model::system::Mechanical;
 use serde_json::Value as Json;
 
-use super::modes;
+use super::{has_equations, modes};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::SystemStudy;
 
@@ -48,10 +48,11 @@ fn natural_frequencies(study: &SystemStudy, time: f64) -> Result<Vec<f64>, Failu
 
 /// The modes of a study; where its speed varies, those of a moment.
 fn modes_at(study: &SystemStudy, time: f64) -> Result<modes::SystemModes, Failure> {
+    has_equations(study, "simulate")?;
     let structure = &study.system().structure;
     match structure.mechanical().and_then(Mechanical::by_speed) {
         Some(_) => modes::of(&study.system().steady_at(time)),
-        None => modes::run(study),
+        None => modes::of(study.system()),
     }
 }
 

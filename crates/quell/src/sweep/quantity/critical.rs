@@ -5,17 +5,18 @@ use quell_model::{Contact, System};
 
 use super::growth;
 use crate::contact_state::averaged_without_states;
-use crate::sweep::map_quantity::{FORCE, MapQuantity, Needs, OF_AVERAGES, variable};
+use crate::needs::Needs;
+use crate::sweep::map_quantity::{FORCE, MapQuantity, OF_AVERAGES, variable};
 use crate::sweep::points::{ChunkPoints, PointComputation, Subject};
 use crate::sweep::status::Status;
 
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<Criticals>("critical-amplitude", "smallest amplitude of the first dither that makes sliding stable, by averaging", Needs::Contacts, &[
+    MapQuantity::of::<Criticals>("critical-amplitude", "smallest amplitude of the first dither that makes sliding stable, by averaging", Needs::CONTACTS, &[
         variable(("critical_amplitude", "A*"), "smallest amplitude that makes sliding stable", FORCE, OF_AVERAGES, |points| points.values(|found: &Criticals| found.first(Becomes::Stable))),
     ]),
-    MapQuantity::of::<Criticals>("destabilising-amplitude", "smallest amplitude of the first dither that makes sliding unstable, by averaging", Needs::Contacts, &[
+    MapQuantity::of::<Criticals>("destabilising-amplitude", "smallest amplitude of the first dither that makes sliding unstable, by averaging", Needs::CONTACTS, &[
         variable(("destabilising_amplitude", "A°"), "smallest amplitude that makes sliding unstable", FORCE, OF_AVERAGES, |points| points.values(|found: &Criticals| found.first(Becomes::Unstable))),
     ]),
 ];

@@ -3,23 +3,24 @@
 use quell_dynamics::attractor::{SystemAttractor, end_of_run};
 use quell_model::Contact;
 
+use crate::needs::Needs;
 use crate::run::protocol::Protocol;
 use crate::run::slip::SlipReached;
 use crate::run::system::of_runs::beyond_laws;
-use crate::sweep::map_quantity::{LENGTH, MapQuantity, Needs, RATIO, VariableKind, variable};
+use crate::sweep::map_quantity::{LENGTH, MapQuantity, RATIO, VariableKind, variable};
 use crate::sweep::points::{ChunkPoints, Point, PointComputation, Subject};
 use crate::sweep::status::Status;
 
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<RunEnd>("ends-on", "the motion on which the run of the study ends: period-1 (in step with the dither), locked, not-periodic, limit-cycle, rest", Needs::Motions, &[
+    MapQuantity::of::<RunEnd>("ends-on", "the motion on which the run of the study ends: period-1 (in step with the dither), locked, not-periodic, limit-cycle, rest", Needs::MOTIONS, &[
         variable(("ends_on", ""), "motion on which the run ends", MOTIONS, OF_END, |points| points.values(|found: &RunEnd| Ok(f64::from(found.attractor.kind_code())))),
     ]),
-    MapQuantity::of::<RunEnd>("peak-to-peak", "peak-to-peak of the observed displacement of the motion on which the run ends", Needs::Motions, &[
+    MapQuantity::of::<RunEnd>("peak-to-peak", "peak-to-peak of the observed displacement of the motion on which the run ends", Needs::MOTIONS, &[
         variable(("peak_to_peak", ""), "peak-to-peak of the observed displacement", LENGTH, OF_END, |points| points.values(|found: &RunEnd| Ok(found.attractor.size()))),
     ]),
-    MapQuantity::of::<RunEnd>("stick-fraction", "largest fraction of the time that a contact sticks, on the motion on which the run ends", Needs::Motions, &[
+    MapQuantity::of::<RunEnd>("stick-fraction", "largest fraction of the time that a contact sticks, on the motion on which the run ends", Needs::MOTIONS, &[
         variable(("stick_fraction", ""), "largest fraction of the time that a contact sticks", RATIO, OF_END, |points| points.values(|found: &RunEnd| found.stick_fraction)),
     ]),
 ];

@@ -17,10 +17,11 @@ use quell_numerics::eigen::EigenError;
 use quell_numerics::floquet::Effort;
 
 use crate::contact_state::averaged_without_states;
+use crate::needs::Needs;
 use crate::range::outside_of_laws;
 use crate::run::stability::averaged_verdict;
 use crate::sweep::map_quantity::{
-    MapQuantity, Needs, OF_AVERAGES, RATIO, VERDICTS, VariableKind, variable,
+    MapQuantity, OF_AVERAGES, RATIO, VERDICTS, VariableKind, variable,
 };
 use crate::sweep::points::{ChunkPoints, PointComputation, Subject};
 use crate::sweep::status::Status;
@@ -29,21 +30,21 @@ use crate::words::digits;
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<SlidingGrowth>("growth", "largest growth rate of small motions, by averaging under dither, its verdict and the bound on its error", Needs::Sliding, &[
+    MapQuantity::of::<SlidingGrowth>("growth", "largest growth rate of small motions, by averaging under dither, its verdict and the bound on its error", Needs::SLIDING, &[
         variable(("growth", "Re λ"), "largest growth rate", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &SlidingGrowth| Ok(found.growth.rate))),
         variable(("growth_error", ""), "bound on the error of the growth rate", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &SlidingGrowth| Ok(found.growth.error))),
         variable(("growth_verdict", ""), "whether the sign of the growth rate is certain within its error", VERDICTS, OF_AVERAGES, |points| points.values(SlidingGrowth::verdict)),
     ]),
-    MapQuantity::of::<SlidingGrowth>("frequency", "angular frequency of the fastest growing motion; of a disc under dither up to multiples of the dither frequency", Needs::Sliding, &[
+    MapQuantity::of::<SlidingGrowth>("frequency", "angular frequency of the fastest growing motion; of a disc under dither up to multiples of the dither frequency", Needs::SLIDING, &[
         variable(("frequency", "Im λ"), "angular frequency of the fastest growing motion", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &SlidingGrowth| Ok(found.growth.frequency))),
     ]),
-    MapQuantity::of::<SlidingGrowth>("verdict", "verdict on steady sliding, by averaging under dither: stable or unstable, undecided within its error", Needs::Sliding, &[
+    MapQuantity::of::<SlidingGrowth>("verdict", "verdict on steady sliding, by averaging under dither: stable or unstable, undecided within its error", Needs::SLIDING, &[
         variable(("verdict", ""), "verdict on steady sliding", VERDICTS, OF_AVERAGES, |points| points.values(SlidingGrowth::verdict)),
     ]),
-    MapQuantity::of::<SlidingGrowth>("slip-ratio", "largest fast slip velocity over the velocity of its surface: from 1 on a contact reverses", Needs::Contacts, &[
+    MapQuantity::of::<SlidingGrowth>("slip-ratio", "largest fast slip velocity over the velocity of its surface: from 1 on a contact reverses", Needs::CONTACTS, &[
         variable(("slip_ratio", "|â|/v"), "largest fast slip over the velocity of its surface", RATIO, OF_AVERAGES, |points| points.values(|found: &SlidingGrowth| Ok(found.slip_ratio))),
     ]),
-    MapQuantity::of::<UnditheredGrowth>("growth-undithered", "largest growth rate without dither", Needs::Sliding, &[
+    MapQuantity::of::<UnditheredGrowth>("growth-undithered", "largest growth rate without dither", Needs::SLIDING, &[
         variable(("growth_undithered", "Re λ_0"), "largest growth rate without dither", VariableKind::Rate, OF_SLIDING, |points| points.values(|found: &UnditheredGrowth| Ok(found.0.growth.rate))),
         variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", VariableKind::Rate, OF_SLIDING, |points| points.values(|found: &UnditheredGrowth| Ok(found.0.growth.error))),
     ]),

@@ -10,9 +10,10 @@ use quell_model::{Belt, OneMass, System};
 
 use super::growth;
 use crate::contact_state::without_states;
+use crate::needs::Needs;
 use crate::range;
 use crate::sweep::map_quantity::{
-    MapQuantity, Needs, OF_AVERAGES, RATIO, VERDICTS, VariableKind, variable,
+    MapQuantity, OF_AVERAGES, RATIO, VERDICTS, VariableKind, variable,
 };
 use crate::sweep::points::{ChunkPoints, PointComputation, Subject};
 use crate::sweep::status::Status;
@@ -22,19 +23,19 @@ const VELOCITY: VariableKind = VariableKind::Number(Quantity::Velocity);
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<OwnCriterion>("criterion", "criterion of stability 2ζ + Fμ̄′ by finite-R averaging: unstable where negative", Needs::OneMass, &[
+    MapQuantity::of::<OwnCriterion>("criterion", "criterion of stability 2ζ + Fμ̄′ by finite-R averaging: unstable where negative", Needs::ONE_MASS, &[
         variable(("criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability", RATIO, OF_AVERAGES, |points| points.values(|found: &OwnCriterion| found.0.value())),
     ]),
-    MapQuantity::of::<LimitCriterion>("limit-verdict", "averaged verdict (2.26) in the limit of high dither frequency, R → ∞: that of the dissertation", Needs::OneMass, &[
+    MapQuantity::of::<LimitCriterion>("limit-verdict", "averaged verdict (2.26) in the limit of high dither frequency, R → ∞: that of the dissertation", Needs::ONE_MASS, &[
         variable(("limit_verdict", ""), "averaged verdict on steady sliding for R → ∞", VERDICTS, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.0.verdict())),
     ]),
-    MapQuantity::of::<LimitCriterion>("limit-criterion", "criterion of averaged stability 2ζ + Fμ̄′ (2.26) in the limit R → ∞", Needs::OneMass, &[
+    MapQuantity::of::<LimitCriterion>("limit-criterion", "criterion of averaged stability 2ζ + Fμ̄′ (2.26) in the limit R → ∞", Needs::ONE_MASS, &[
         variable(("limit_criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability for R → ∞", RATIO, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.0.value())),
     ]),
-    MapQuantity::of::<LimitCriterion>("limit-growth", "growth rate of small slow motions by averaging in the limit R → ∞", Needs::OneMass, &[
+    MapQuantity::of::<LimitCriterion>("limit-growth", "growth rate of small slow motions by averaging in the limit R → ∞", Needs::ONE_MASS, &[
         variable(("limit_growth", "Re ρ"), "averaged growth rate of small slow motions for R → ∞", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.0.growth())),
     ]),
-    MapQuantity::of::<LimitCriticals>("limit-critical-amplitude", "smallest and largest amplitude ratio α = D/R of the first dither at which averaged stability changes in the limit R → ∞", Needs::OneMass, &[
+    MapQuantity::of::<LimitCriticals>("limit-critical-amplitude", "smallest and largest amplitude ratio α = D/R of the first dither at which averaged stability changes in the limit R → ∞", Needs::ONE_MASS, &[
         variable(("limit_critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither for R → ∞", VELOCITY, OF_AVERAGES, |points| points.values(LimitCriticals::first)),
         variable(("limit_critical_amplitude_upper", "α_c"), "largest critical amplitude ratio of the first dither for R → ∞, where there are several", VELOCITY, OF_AVERAGES, |points| points.values(LimitCriticals::last)),
     ]),

@@ -6,24 +6,25 @@ use quell_model::units::Quantity;
 
 use super::response::{self, measured};
 use crate::cite::Task;
+use crate::needs::Needs;
 use crate::run::system::of_runs::beyond_laws;
-use crate::sweep::map_quantity::{FORCE, LENGTH, MapQuantity, Needs, VariableKind, variable};
+use crate::sweep::map_quantity::{FORCE, LENGTH, MapQuantity, VariableKind, variable};
 use crate::sweep::points::{ChunkPoints, Point, PointComputation, Subject};
 use crate::sweep::status::Status;
 
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<Means>("mean-friction", "mean friction force of the steady response, of all contacts", Needs::Motions, &[
+    MapQuantity::of::<Means>("mean-friction", "mean friction force of the steady response, of all contacts", Needs::MOTIONS, &[
         variable(("mean_friction", "⟨f⟩"), "mean friction force", FORCE, OF_MEANS, |points| points.values(|found: &Means| Ok(found.friction))),
     ]),
-    MapQuantity::of::<Means>("dither-power", "mean power supplied by tangential dither", Needs::Motions, &[
+    MapQuantity::of::<Means>("dither-power", "mean power supplied by tangential dither", Needs::MOTIONS, &[
         variable(("dither_power", "P"), "mean power of the dither", VariableKind::Number(Quantity::Power), OF_MEANS, |points| points.values(|found: &Means| Ok(found.dither?.0))),
     ]),
-    MapQuantity::of::<Means>("dither-stroke", "largest peak-to-peak displacement of a point on which tangential dither acts", Needs::Motions, &[
+    MapQuantity::of::<Means>("dither-stroke", "largest peak-to-peak displacement of a point on which tangential dither acts", Needs::MOTIONS, &[
         variable(("dither_stroke", ""), "stroke of tangential dither", LENGTH, OF_MEANS, |points| points.values(|found: &Means| Ok(found.dither?.1))),
     ]),
-    MapQuantity::of::<Means>("minimum-normal-load", "smallest normal load of a contact in the steady response", Needs::Motions, &[
+    MapQuantity::of::<Means>("minimum-normal-load", "smallest normal load of a contact in the steady response", Needs::MOTIONS, &[
         variable(("minimum_normal_load", "N_{min}"), "smallest normal load", FORCE, OF_MEANS, |points| points.values(|found: &Means| Ok(found.least_load))),
     ]),
 ];

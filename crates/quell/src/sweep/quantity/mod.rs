@@ -15,10 +15,10 @@ mod orbit;
 mod quench;
 mod response;
 
-use super::map_quantity::{MapQuantity, Needs};
+use super::map_quantity::MapQuantity;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::nearest;
-use crate::study::{Study, not_periodic};
+use crate::study::Study;
 
 pub(crate) use growth::{SlidingGrowth, growth_of_disc};
 pub(crate) use quench::least_quiet;
@@ -59,24 +59,22 @@ impl MapQuantity {
     /// # Errors
     /// A complaint with the quantities of the study.
     pub(super) fn accepts(&self, study: &Study) -> Result<(), Box<Complaint>> {
-        if !self.needs.are_met(study) {
-            let all = QUANTITIES.iter().copied().flatten();
-            let names: Vec<&str> =
-                all.filter(|one| one.needs.are_met(study)).map(|one| one.name).collect();
-            let allowed = format!(
-                "for a study of {}; quantities of this study are {}",
-                self.needs.about(),
-                names.join(", ")
-            );
-            let option = "--quantity";
-            let complaint =
-                Complaint::new(Fault::Value, option, Origin::Argument(option), self.name, allowed);
-            return Err(Box::new(complaint));
+        let name = format!("map --quantity {}", self.name);
+        let Some(refused) = self.needs.refused(study, &name) else { return Ok(()) };
+        if self.needs.suit(study) {
+            return Err(Box::new(refused));
         }
-        match study.noise().filter(|_| self.needs == Needs::Motions) {
-            Some(key) => Err(Box::new(not_periodic(&format!("map --quantity {}", self.name), key))),
-            None => Ok(()),
-        }
+        let all = QUANTITIES.iter().copied().flatten();
+        let names: Vec<&str> =
+            all.filter(|one| one.needs.are_met(study)).map(|one| one.name).collect();
+        let allowed = format!(
+            "for a study of {}; quantities of this study are {}",
+            self.needs.about(),
+            names.join(", ")
+        );
+        let option = "--quantity";
+        let origin = Origin::Argument(option);
+        Err(Box::new(Complaint::new(Fault::Value, option, origin, self.name, allowed)))
     }
 }
 

@@ -4,17 +4,18 @@ use quell_dynamics::motion::orbit::family::NoImage;
 use quell_dynamics::motion::orbit::{BASE_STEPS, MotionOrbit, NoMotionOrbit, base_motion};
 use quell_dynamics::orbit::OrbitVerdict;
 
-use crate::sweep::map_quantity::{MapQuantity, Needs, RATIO, VERDICTS, variable};
+use crate::needs::Needs;
+use crate::sweep::map_quantity::{MapQuantity, RATIO, VERDICTS, variable};
 use crate::sweep::points::{ChunkPoints, PointComputation, Subject};
 use crate::sweep::status::Status;
 
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<BaseOrbit>("orbit-verdict", "verdict on the base response by its multipliers", Needs::Motions, &[
+    MapQuantity::of::<BaseOrbit>("orbit-verdict", "verdict on the base response by its multipliers", Needs::MOTIONS, &[
         variable(("orbit_verdict", ""), "verdict on the base response by its multipliers", VERDICTS, OF_ORBIT, |points| points.values(BaseOrbit::verdict)),
     ]),
-    MapQuantity::of::<BaseOrbit>("orbit-radius", "modulus of the deciding multiplier of the base response: stable below 1", Needs::Motions, &[
+    MapQuantity::of::<BaseOrbit>("orbit-radius", "modulus of the deciding multiplier of the base response: stable below 1", Needs::MOTIONS, &[
         variable(("orbit_radius", "|λ|"), "modulus of the deciding multiplier", RATIO, OF_ORBIT, |points| points.values(|found: &BaseOrbit| Ok(found.0.radius()))),
     ]),
 ];

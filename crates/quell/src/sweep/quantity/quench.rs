@@ -7,8 +7,9 @@ use quell_model::System;
 
 use super::{critical, growth};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
+use crate::needs::Needs;
 use crate::range::outside_of_laws;
-use crate::sweep::map_quantity::{FORCE, MapQuantity, Needs, VariableKind, variable};
+use crate::sweep::map_quantity::{FORCE, MapQuantity, VariableKind, variable};
 use crate::sweep::points::{ChunkPoints, PointComputation, Subject};
 use crate::sweep::status::Status;
 use crate::words::digits;
@@ -16,7 +17,7 @@ use crate::words::digits;
 /// The quantity.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<QuenchNumbers>("quench-amplitude", "least amplitude of the first dither from which the base response is stable, exactly: its kind, that of finite-R averaging, and where quiet amplitudes end or begin again", Needs::Motions, &[
+    MapQuantity::of::<QuenchNumbers>("quench-amplitude", "least amplitude of the first dither from which the base response is stable, exactly: its kind, that of finite-R averaging, and where quiet amplitudes end or begin again", Needs::MOTIONS, &[
         variable(("quench_amplitude", "D*"), "exact quench amplitude, the least one from which the base response is stable", FORCE, OF_QUENCH, |points| points.values(|found: &QuenchNumbers| found.least)),
         variable(("quench_kind", ""), "bifurcation of the base response at the quench amplitude", KINDS, OF_QUENCH, |points| points.values(QuenchNumbers::kind)),
         variable(("quench_amplitude_averaged", "D*"), "quench amplitude by finite-R averaging", FORCE, OF_QUENCH, |points| points.values(|found: &QuenchNumbers| found.averaged)),

@@ -13,32 +13,33 @@ use quell_dynamics::simulation::within;
 use crate::cite::Task;
 use crate::complaint::Failure;
 use crate::effort::STEPS_OF_A_SEARCH;
+use crate::needs::Needs;
 use crate::run::response::{
     MeasuredResponse, RECORD_PERIODS, ResponseRequest, SETTLE_PERIODS, plan_of, run,
 };
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::start_of;
 use crate::study::{SystemStart, SystemStudy};
-use crate::sweep::map_quantity::{LENGTH, MapQuantity, Needs, RATIO, VariableKind, variable};
+use crate::sweep::map_quantity::{LENGTH, MapQuantity, RATIO, VariableKind, variable};
 use crate::sweep::points::{ChunkPoints, Point, PointComputation, Subject};
 use crate::sweep::status::Status;
 
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<EffectOfDither>("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Needs::Motions, &[
+    MapQuantity::of::<EffectOfDither>("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Needs::MOTIONS, &[
         variable(("effect", ""), "effect of the dither", EFFECTS, OF_RESPONSE, |points| points.values(EffectOfDither::code)),
     ]),
-    MapQuantity::of::<Responded>("residual-vibration", "residual vibration E = M₁/M₀ (2.27), the dissertation's efficiency metric: the share that remains under dither; 0 if quenched", Needs::Motions, &[
+    MapQuantity::of::<Responded>("residual-vibration", "residual vibration E = M₁/M₀ (2.27), the dissertation's efficiency metric: the share that remains under dither; 0 if quenched", Needs::MOTIONS, &[
         variable(("residual_vibration", "E"), "residual vibration E = M₁/M₀", RATIO, OF_RESPONSE, |points| points.values(|found: &Responded| Ok(found.summary.residual_vibration?))),
     ]),
-    MapQuantity::of::<Responded>("amplitude", "largest spectral amplitude M of the observed displacement in the band of slow vibration: of one mass below 1.9 ω₀, of several below the dither", Needs::Motions, &[
+    MapQuantity::of::<Responded>("amplitude", "largest spectral amplitude M of the observed displacement in the band of slow vibration: of one mass below 1.9 ω₀, of several below the dither", Needs::MOTIONS, &[
         variable(("amplitude", "M"), "spectral amplitude of the slow vibration", LENGTH, OF_RESPONSE, |points| points.values(|found: &Responded| Ok(found.summary.amplitude))),
     ]),
-    MapQuantity::of::<Responded>("undithered-amplitude", "spectral amplitude M₀ of the run without dither", Needs::Motions, &[
+    MapQuantity::of::<Responded>("undithered-amplitude", "spectral amplitude M₀ of the run without dither", Needs::MOTIONS, &[
         variable(("undithered_amplitude", "M_0"), "spectral amplitude without dither", LENGTH, OF_RESPONSE, |points| points.values(|found: &Responded| Ok(found.summary.undithered_amplitude))),
     ]),
-    MapQuantity::of::<Responded>(SETTLED, "whether the amplitudes of the two halves of the record agree", Needs::Motions, &[
+    MapQuantity::of::<Responded>(SETTLED, "whether the amplitudes of the two halves of the record agree", Needs::MOTIONS, &[
         variable((SETTLED, ""), "whether the response has settled", FLAG, OF_RESPONSE, |points| points.values(|found: &Responded| Ok(f64::from(u8::from(found.summary.settled))))),
     ]),
 ];

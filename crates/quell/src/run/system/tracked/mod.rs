@@ -19,7 +19,6 @@ use quell_numerics::roots::{Closeness, find_root};
 use super::validity::ContactRanges;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
-use crate::contact_state::refused_of_system;
 use crate::run::varied::{OF_THE_EQUATIONS, kind_of_document, not_a_peak, number_meant};
 use crate::study::{Model, ParameterId, SystemStudy};
 
@@ -171,8 +170,7 @@ fn rests(
 /// # Errors
 /// Complaints about the parameters and their windows; [`Failure::Failed`] if no value of the window has steady sliding.
 pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
-    has_equations(study, "stability")?;
-    refused_of_system(study, "stability --parameter")?;
+    has_equations(study, "stability --parameter")?;
     understood(study, request)?;
     let model = study.model();
     let parameter = model.parameter(&request.parameter)?;
