@@ -3,7 +3,6 @@
 use clap::{Args, ValueEnum, ValueHint};
 use quell::run::disc::resonances::{Order, ResonancesRequest};
 use quell::run::system::reach::without_waves;
-use quell::study::SystemStudy;
 use quell::verbs::verbs;
 use quell::{Failure, Study, quantity};
 
@@ -57,11 +56,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let inputs = inputs(study.as_ref());
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    if let Some(Ok(system)) = study.as_ref().map(Study::system) {
-        let frequencies = complaints.take(frequencies(arguments, &system));
+    if let Some(study) = study.as_ref().filter(|study| study.disc().is_err()) {
+        let frequencies = complaints.take(frequencies(arguments, study));
         let (frequencies, (outputs, plot)) =
             complaints.finish(frequencies.zip(outputs.zip(plot)))?;
-        let done = verbs(&(&system).into()).reach(frequencies)?;
+        let done = verbs(study).reach(frequencies)?;
         return answer(arguments.study.json, done.as_ref(), outputs, plot);
     }
     let request = request(arguments, study.as_ref(), &mut complaints);
@@ -73,11 +72,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 }
 
 /// The range of dither frequencies of a system.
-fn frequencies(arguments: &Arguments, study: &SystemStudy) -> Result<Option<(f64, f64)>, Failure> {
+fn frequencies(arguments: &Arguments, study: &Study) -> Result<Option<(f64, f64)>, Failure> {
     let (speeds, clear) = (arguments.speeds.as_deref(), arguments.clear.as_deref());
     without_waves(speeds, arguments.order.into(), clear)?;
     let text = arguments.frequency.as_deref();
-    let read = |text: &str| quantity::system_frequency(text, study.units(), "--frequency");
+    let read = |text: &str| quantity::dither_frequency(text, Some(study), "--frequency");
     Ok(text.map(|text| pair("--frequency", text, read)).transpose()?)
 }
 

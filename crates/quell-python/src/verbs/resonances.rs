@@ -2,7 +2,6 @@
 
 use quell::run::disc::resonances::{Order, ResonancesRequest};
 use quell::run::system::reach::without_waves;
-use quell::study::SystemStudy;
 use quell::verbs::verbs;
 use quell::{Failure, Study, quantity};
 
@@ -21,12 +20,11 @@ pub(crate) fn run(
         "second" => Order::Second,
         other => return Err(refused("order", other, "\"first\" or \"second\"")),
     };
-    if let Ok(system) = study.system() {
-        return reach(&system, order, &ranges);
+    let disc = study.disc().ok();
+    if disc.is_none() {
+        return reach(study, order, &ranges);
     }
     let [speeds, clear, frequency] = ranges;
-    let verbs = verbs(study);
-    let disc = study.disc().ok();
     let range = |pair: &Option<Pair>, option| -> Result<Option<(f64, f64)>, Failure> {
         let Some((from, to)) = pair else { return Ok(None) };
         let read = |text: &str| quantity::frequency(text, disc.as_ref(), option);
@@ -36,21 +34,21 @@ pub(crate) fn run(
     let speeds = range(&speeds, "--speeds")?.unwrap_or((0.0, 1.0));
     let (clear, frequency) = (range(&clear, "--clear")?, range(&frequency, "--frequency")?);
     let request = ResonancesRequest::new(speeds, order, clear, frequency)?;
-    Ok(NativeAnswer::new(verbs.resonances(request)?))
+    Ok(NativeAnswer::new(verbs(study).resonances(request)?))
 }
 
 /// How far the dither of a system reaches its contacts.
 fn reach(
-    study: &SystemStudy,
+    study: &Study,
     order: Order,
     [speeds, clear, frequency]: &[Option<Pair>; 3],
 ) -> Result<NativeAnswer, Failure> {
     let shown = |pair: &Option<Pair>| pair.as_ref().map(|(from, to)| format!("{from}:{to}"));
     without_waves(shown(speeds).as_deref(), order, shown(clear).as_deref())?;
-    let read = |text: &str| quantity::system_frequency(text, study.units(), "--frequency");
+    let read = |text: &str| quantity::dither_frequency(text, Some(study), "--frequency");
     let range = match frequency {
         Some((from, to)) => Some((read(from)?, read(to)?)),
         None => None,
     };
-    Ok(NativeAnswer::new(verbs(&study.into()).reach(range)?))
+    Ok(NativeAnswer::new(verbs(study).reach(range)?))
 }
