@@ -2,7 +2,8 @@
 //! model.
 
 use quell_linear::averaging::DitheredContact;
-use quell_model::{Belt, Contact, Direction, Friction, System};
+use quell_model::system::InputTarget;
+use quell_model::{Friction, System};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -38,35 +39,6 @@ pub(crate) fn refused_where_averaged(study: &SystemStudy, verb: &str) -> Result<
     Err(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed).into())
 }
 
-/// Warnings where the average of the law without its state differs from that of the contact of a belt.
-pub(crate) fn rigid_average(belt: &Belt, slip_velocity: f64) -> Option<String> {
-    let law = belt.friction();
-    let total = |value: fn(&quell_model::Dither) -> f64, direction| {
-        belt.dithers_along(direction).map(value).fold(0.0, f64::max)
-    };
-    let displacement =
-        total(|dither| dither.amplitude_ratio() / dither.frequency_ratio, Direction::Tangential);
-    if let Some(bristles) = law.bristles() {
-        // Π = σ₀a/(F_c ω), a the amplitude of the velocity, is the displacement over that of the bristles.
-        let ratio = displacement * bristles.stiffness / saturated(law);
-        return (displacement > 0.0 && ratio < LARGE).then(|| bristles_follow(ratio, ""));
-    }
-    let stiffness = belt.tangential_stiffness()?;
-    let breakaway = letting_go(law, belt.fast_velocity()) * belt.normal_load() / stiffness;
-    if displacement > 0.0 && displacement < LARGE * breakaway {
-        return Some(slider_follows(displacement / breakaway, ""));
-    }
-    let rate = total(|dither| dither.amplitude * dither.frequency_ratio, Direction::Normal);
-    let reached = stiffness * slip_velocity.abs() / (law.static_coefficient() * rate);
-    (rate > 0.0 && reached < 1.0).then(|| {
-        format!(
-            "the elastic contact adheres for a part of each period of the load, because k_t v/(μ_s dN/dt) = {} is below 1: the average \
-             of the rigid law does not hold (Popov et al. 2017)",
-            digits(reached)
-        )
-    })
-}
-
 /// The largest coefficient at which an elastic slider lets go under slip speeds up to `speed`: its static level, or that of sliding where
 /// the law rises above it.
 fn letting_go(law: &Friction, speed: f64) -> f64 {
@@ -94,46 +66,70 @@ fn slider_follows(ratio: f64, of: &str) -> String {
     )
 }
 
-/// Warnings where the averages and the small motions of the contacts of a system differ from those of the laws without their states.
-/// `fast` has the amplitude of the fast slip velocity of each contact, and the lowest frequency of the dither.
-pub(crate) fn without_states(system: &System, fast: Option<(&[f64], f64)>) -> Vec<String> {
-    let mut warnings = Vec::new();
-    for (index, contact) in system.contacts.iter().enumerate() {
-        let of = format!(" of contact {}", contact.name);
-        let displacement = fast.map_or(0.0, |(slip, frequency)| {
-            slip.get(index).map_or(0.0, |amplitude| amplitude / frequency)
-        });
-        let law = &contact.friction;
-        if let Some(bristles) = law.bristles() {
-            let ratio = displacement * bristles.stiffness / saturated(law);
-            if displacement > 0.0 && ratio < LARGE {
-                warnings.push(bristles_follow(ratio, &of));
-            }
-            if !system.inputs.is_empty() {
-                warnings.push(small_motions(&of));
-            }
-        } else if let Some(stiffness) = contact.tangential_stiffness {
-            let speed = fast.and_then(|(slip, _)| slip.get(index).copied()).unwrap_or_default();
-            let breakaway = letting_go(law, speed) * contact.normal_load / stiffness;
-            if displacement > 0.0 && displacement < LARGE * breakaway {
-                warnings.push(slider_follows(displacement / breakaway, &of));
-            }
-        }
-    }
-    warnings
+fn adheres(reached: f64, of: &str) -> String {
+    format!(
+        "the elastic contact{of} adheres for a part of each period of the load, because k_t v/(μ_s dN/dt) = {} is below 1: the average \
+         of the rigid law does not hold (Popov et al. 2017)",
+        digits(reached)
+    )
 }
 
-/// The warnings of [`without_states`] about averages of a system under its dither.
+/// The fast motion of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FastContact {
+    /// Amplitude of the fast slip velocity.
+    pub(crate) slip: f64,
+    /// The slip speed about which friction is averaged.
+    pub(crate) speed: f64,
+}
+
+/// Why the average of the law of a contact without its state is not that of the contact under the dither; `None` where it is, and of a
+/// contact without a state.
+pub(crate) fn without_state(system: &System, index: usize, fast: FastContact) -> Option<String> {
+    let contact = &system.contacts[index];
+    let (law, of) = (&contact.friction, format!(" of contact {}", contact.name));
+    let lowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
+    // Loads that oscillate move the masses through friction alone.
+    let moves = system.inputs.iter().any(|input| matches!(input.target, InputTarget::Force(_)));
+    let displacement = if moves { fast.slip / lowest } else { 0.0 };
+    if let Some(bristles) = law.bristles() {
+        // Π = σ₀a/(F_c ω), a the amplitude of the velocity, is the displacement over that of the bristles.
+        let ratio = displacement * bristles.stiffness / saturated(law);
+        return (displacement > 0.0 && ratio < LARGE).then(|| bristles_follow(ratio, &of));
+    }
+    let stiffness = contact.tangential_stiffness?;
+    let breakaway = letting_go(law, fast.slip) * contact.normal_load / stiffness;
+    if displacement > 0.0 && displacement < LARGE * breakaway {
+        return Some(slider_follows(displacement / breakaway, &of));
+    }
+    let loads = system.inputs.iter().filter(
+        |input| matches!(input.target, InputTarget::NormalLoad { contact, .. } if contact == index),
+    );
+    let waves = loads.flat_map(|input| input.profile.waves());
+    let rate = waves.fold(0.0_f64, |most, wave| most.max(wave.amplitude * wave.lowest()));
+    let reached = stiffness * fast.speed / (law.static_coefficient() * rate);
+    (rate > 0.0 && reached < 1.0).then(|| adheres(reached, &of))
+}
+
+/// Warnings about averages of a system under its dither, and about small motions of bristles, where they differ from those of the laws
+/// without the states of the contacts.
 pub(crate) fn averaged_without_states(
     system: &System,
     contacts: &[DitheredContact],
 ) -> Vec<String> {
-    if !system.contacts.iter().any(Contact::has_state) {
-        return Vec::new();
+    let mut warnings = Vec::new();
+    for (index, (contact, found)) in system.contacts.iter().zip(contacts).enumerate() {
+        let speed = contact.surface_velocity.mean().abs();
+        warnings.extend(without_state(
+            system,
+            index,
+            FastContact { slip: found.slip_amplitude, speed },
+        ));
+        if contact.friction.bristles().is_some() {
+            warnings.push(small_motions(&format!(" of contact {}", contact.name)));
+        }
     }
-    let lowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
-    let fast: Vec<f64> = contacts.iter().map(|contact| contact.slip_amplitude).collect();
-    without_states(system, Some((&fast, lowest)))
+    warnings
 }
 
 /// The warning that averages are a start alone, where the exact answers next to them know the state of the contact.

@@ -20,7 +20,7 @@ use crate::run::recorded_motion::ObservedMotion;
 use crate::run::response::ResponseRequest;
 use crate::run::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{design, exact, measured, modes, reach, tracked};
+use crate::run::system::{design, exact, has_equations, measured, modes, reach, tracked};
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
@@ -281,6 +281,7 @@ impl Verbs {
     /// As [`thresholds::run`].
     pub fn thresholds(&self, request: &ThresholdsRequest) -> Reply {
         let study = self.system("thresholds")?;
+        has_equations(&study, "thresholds")?;
         if by_eigenvalues(&study, request)? {
             return answer(&study, tracked::run(&study, &request.tracked()));
         }
@@ -293,6 +294,7 @@ impl Verbs {
     /// As [`curves::run`].
     pub fn threshold_curves(&self, request: &CurvesRequest) -> Reply {
         let study = self.system("thresholds")?;
+        has_equations(&study, "thresholds")?;
         if curves::is_dithered_in(&study, request) {
             return answer(&study, curves::run(&study, request));
         }

@@ -255,6 +255,59 @@ fn quantities_are_for_studies_that_meet_their_needs() {
     assert!(found["mean_friction"][0].is_number(), "{found}");
 }
 
+/// Without a dither that acts, averages are the small motions themselves, base responses do not exist, and effects are unknown.
+#[test]
+fn a_dither_of_amplitude_zero_is_none() {
+    let text = belt(LAWS[1], 1.0) + "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.0]\n";
+    let found = map(&text, &["growth", "growth-undithered", "orbit-verdict", "effect"]);
+    assert_eq!(found["growth"], found["growth_undithered"]);
+    assert_eq!(found["growth_status"][0], "known");
+    for name in ["orbit_verdict_status", "effect_status"] {
+        assert_eq!(found[name][0], "no_dither", "{found}");
+    }
+}
+
+/// Every kind of motion has its word, and every status is one that its variable declares.
+#[test]
+fn words_and_statuses_are_declared() {
+    let stribeck = "[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n";
+    let text = format!(
+        "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.01]\nstiffness = [1.0]\n[[contact]]\nname = \"belt\"\n\
+         tangent = {{ x = 1.0 }}\nnormal_load = 1.0\nbelt_velocity = 0.1\n{}[[dither]]\nat = {{ x = 1.0 }}\nwaveform = \"sine\"\n\
+         amplitude = 0.9\nfrequency = 10.0\n[[sweep]]\nparameter = \"contact.belt.belt_velocity\"\nvalues = [-0.1, 0.1]\n",
+        stribeck.replace("[friction]", "[contact.friction]")
+    );
+    let asked: Vec<_> = ["ends-on", "criterion", "limit-verdict"]
+        .map(|name| MapQuantity::named(name, "--quantity").expect("a quantity"))
+        .into();
+    let plan = Plan::new(study(&text), &asked).expect("a plan");
+    let declared = |name: &str| {
+        let field = plan.sheet().fields().iter().find(|field| field.name == name);
+        format!("{:?}", field.expect("a field").content)
+    };
+    let found = map(&text, &["ends-on", "criterion", "limit-verdict"]);
+    assert_eq!(found["ends_on"][1], "quasi-periodic", "{found}");
+    assert_eq!(found["criterion_status"][0], "not_one_mass", "{found}");
+    assert!(declared("criterion_status").contains("not_one_mass"));
+    assert!(declared("ends_on").contains("quasi-periodic"));
+}
+
+/// The criterion is that of `stability` where averaging in the limit does not apply, and a record that `response` refuses is refused.
+#[test]
+fn points_are_refused_where_the_verb_refuses() {
+    let bare = belt(("", LAWS[0].1), 1.0);
+    let over = |values: &str| {
+        format!("{bare}[[sweep]]\nparameter = \"dither.frequency_ratio\"\nvalues = {values}\n")
+    };
+    let found = map(&over("[0.5]"), &["criterion"]);
+    let slow = verbs(&study(&bare.replace("frequency_ratio = 10.0", "frequency_ratio = 0.5")));
+    assert_eq!(found["criterion"][0], slow.stability().expect("averages").json()["criterion"]);
+    let found = map(&over("[100000.0]"), &["effect", "mean-friction"]);
+    for name in ["effect_status", "mean_friction_status"] {
+        assert_eq!(found[name][0], "record_length", "{found}");
+    }
+}
+
 /// A stiff slider adheres for so short a part of the dither that the average of the rigid law holds, and no point is marked.
 #[test]
 fn stiff_sliders_are_not_marked() {

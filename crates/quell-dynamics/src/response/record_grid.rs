@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use quell_model::System;
 use quell_model::profile::Wave;
+use quell_model::{OneMass, System};
 
 use super::refused::ResponseRefused;
 use super::response_plan::ResponsePlan;
@@ -41,7 +41,7 @@ impl RecordGrid {
     pub(super) fn of(motion: &Motion<'_>, plan: &ResponsePlan) -> Result<Self, ResponseRefused> {
         let system = motion.system();
         if let Some(mass) = system.one_mass() {
-            return Self::of_mass(samples_per_slow_period(mass.belt()), mass.rate(), plan);
+            return Self::of_mass(&mass, plan);
         }
         let slow = vibration_frequency(system).map_or(f64::INFINITY, |rate| TAU / rate);
         let own = TAU * motion.time_scale() / SAMPLES_PER_PERIOD;
@@ -65,7 +65,8 @@ impl RecordGrid {
     }
 
     /// The samples of a map of belts: a whole number of cells of a slow period.
-    fn of_mass(per_period: f64, rate: f64, plan: &ResponsePlan) -> Result<Self, ResponseRefused> {
+    pub(super) fn of_mass(mass: &OneMass, plan: &ResponsePlan) -> Result<Self, ResponseRefused> {
+        let (per_period, rate) = (samples_per_slow_period(mass.belt()), mass.rate());
         let step = TAU / (rate * per_period);
         if plan.length < step {
             return Err(ResponseRefused::TooShort { least: TAU / (rate * BAND_END) });

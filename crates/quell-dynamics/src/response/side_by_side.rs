@@ -6,6 +6,7 @@ use quell_model::{OneMass, System};
 
 use super::effect::{Effect, Vibrations};
 use super::measure::{Compared, ResponseCase, Undefined, compare_many};
+use super::record_grid::RecordGrid;
 use super::refused::ResponseRefused;
 use super::response_plan::ResponsePlan;
 use super::solver::Solver;
@@ -98,6 +99,8 @@ impl MassLane {
     fn of((at, planned): (usize, &PlannedResponse<'_>)) -> Option<Self> {
         let mass = planned.system.one_mass()?;
         let solver = planned.plan.solver_of(&mass)?;
+        // A record that `respond` refuses is refused here.
+        RecordGrid::of_mass(&mass, planned.plan).ok()?;
         let (displacement, velocity) = mass.of_state(&planned.start.state);
         let start = Start { time: mass.rate() * planned.start.time, displacement, velocity };
         let case = ResponseCase { belt: mass.belt().clone(), start };

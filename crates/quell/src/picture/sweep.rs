@@ -304,8 +304,13 @@ fn panel(map: &FinishedMap, entry: &VariableArrays) -> Panel {
     let unit = &plan.sheet().fields()[array].unit;
     let mut up = labelled(PlotAxis::new(short_name(variable.about)), variable.symbol, unit);
     if let VariableKind::Word { words, .. } = variable.kind {
-        up = PlotAxis::new(format!("{} (0 {})", variable.about, words.join(", 1 ")));
-        up = up.between(-0.1, 1.1).ticks([0.0, 1.0]);
+        let numbered = words.iter().enumerate().map(|(code, word)| format!("{code} {word}"));
+        let numbered = numbered.collect::<Vec<_>>().join(", ");
+        up = PlotAxis::new(format!("{} ({numbered})", variable.about));
+        let last = (words.len() - 1) as f64;
+        up = up
+            .between(-0.1, last + 0.1)
+            .ticks((0..words.len()).map(|code| code as f64).collect::<Vec<f64>>());
     }
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
     for (point, place) in swept.values.iter().enumerate() {

@@ -130,6 +130,7 @@ pub(super) const OF_AVERAGES: &[Status] = &[
     Status::Resonance,
     Status::FrictionFactor,
     Status::NoAverageOfWaveform,
+    Status::NotOneMass,
     // Of verdicts.
     Status::WithinError,
     Status::AtCorner,

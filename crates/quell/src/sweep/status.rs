@@ -79,6 +79,8 @@ pub enum Status {
     FrictionFactor = 44,
     /// The system is not one mass on a moving surface.
     NotOneMass = 45,
+    /// The record of a response is too long, or too short for the band of slow vibration.
+    RecordLength = 46,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -121,6 +123,7 @@ impl Status {
         Self::NoReach,
         Self::FrictionFactor,
         Self::NotOneMass,
+        Self::RecordLength,
         Self::Missing,
     ];
 
@@ -177,6 +180,7 @@ impl Status {
             Self::NoReach => "no_reach",
             Self::FrictionFactor => "friction_factor",
             Self::NotOneMass => "not_one_mass",
+            Self::RecordLength => "record_length",
             Self::Missing => "missing",
         }
     }
@@ -253,7 +257,12 @@ impl Status {
                 "the base response is not stable at twice the amplitude at which the contact begins to reverse"
             }
             Self::NoReach => "the dither moves no contact",
-            Self::NotOneMass => "the system is not one mass on a moving surface",
+            Self::NotOneMass => {
+                "the system is not one mass with a spring and a prescribed load on a surface of velocity v ≥ 0"
+            }
+            Self::RecordLength => {
+                "the record of the response is too long to be kept, or too short for the band of slow vibration: change its length"
+            }
             Self::Missing => "not computed yet",
         }
     }

@@ -3,11 +3,11 @@
 use quell_dynamics::response::SteadyFriction;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
-use quell_model::{Belt, Contact, Direction};
+use quell_model::{Belt, Contact, Direction, System};
 
 use super::curve::ContactFriction;
 use super::means::ContactAverages;
-use crate::contact_state;
+use crate::contact_state::{FastContact, without_state};
 use crate::range;
 use crate::run::stability::not_slow;
 use crate::run::system::velocity_in_words;
@@ -38,7 +38,7 @@ pub(super) fn of_contact(
     let largest = found.curve.fastest().max(found.velocity.abs()) + fast;
     let beyond = range::at_contact(contact, largest, words);
     let rest = match &means.limit {
-        _ if contact.has_state() => with_a_state(means.limit.as_ref().ok(), found),
+        _ if contact.has_state() => with_a_state(study.system(), contact, found),
         _ if found.curve.measured.is_some() => found.averaging_is_off(words),
         Ok(belt) => found.slow_slip(belt, words),
         Err(_) => None,
@@ -51,12 +51,13 @@ pub(super) fn of_contact(
 }
 
 /// The average of the law without the state of a contact is not that of the contact.
-fn with_a_state(belt: Option<&Belt>, found: &ContactFriction) -> Option<String> {
-    let belt = belt?;
+fn with_a_state(system: &System, contact: &Contact, found: &ContactFriction) -> Option<String> {
+    let index = system.contacts.iter().position(|known| known.name == contact.name)?;
     let speeds = found.curve.points.iter().map(|point| point.slip_velocity.abs());
     let slowest = speeds.filter(|speed| *speed > 0.0).fold(f64::INFINITY, f64::min);
     let speed = if slowest.is_finite() { slowest } else { found.velocity.abs() };
-    let why = contact_state::rigid_average(belt, speed)?;
+    let slip = *found.fast_velocity.as_ref().unwrap_or(&0.0);
+    let why = without_state(system, index, FastContact { slip, speed })?;
     Some(format!("{why}; the values here are means of the contact with its state"))
 }
 

@@ -36,16 +36,22 @@ pub(crate) fn not_averaged(why: AveragingError) -> Failure {
 
 /// Rejects a study that does not meet the needs of a verb, and a measured frequency response, which has no equations.
 pub(crate) fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
-    if study.frequency_response().is_none() {
-        let needs = StudyVerb::named(verb).map(|verb| verb.needs);
-        let refused = needs.and_then(|needs| needs.refused(&study.into(), verb));
-        return refused.map_or(Ok(()), |complaint| Err(complaint.into()));
+    if let Some(complaint) = measured_alone(study, verb) {
+        return Err(complaint.into());
     }
+    let needs = StudyVerb::named(verb).map(|verb| verb.needs);
+    let refused = needs.and_then(|needs| needs.refused(&study.into(), verb));
+    refused.map_or(Ok(()), |complaint| Err(complaint.into()))
+}
+
+/// The complaint of `what` about a measured frequency response; `None` of equations.
+pub(crate) fn measured_alone(study: &SystemStudy, what: &str) -> Option<Complaint> {
+    study.frequency_response()?;
     let key = "system.frequency_response";
     let allowed = format!(
-        "{verb} needs masses and stiffness or modes; a measured frequency response gives the verdict of `stability` alone"
+        "{what} needs masses and stiffness or modes; a measured frequency response gives the verdict of `stability` alone"
     );
-    Err(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, allowed).into())
+    Some(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, allowed))
 }
 
 /// A frequency after the noun: in hertz where the study has units.

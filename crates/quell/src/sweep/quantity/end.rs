@@ -14,8 +14,8 @@ use crate::sweep::status::Status;
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<RunEnd>("ends-on", "the motion on which the run of the study ends: period-1 (in step with the dither), locked, not-periodic, limit-cycle, rest", Needs::MOTIONS, &[
-        variable(("ends_on", ""), "motion on which the run ends", MOTIONS, OF_END, |points| points.values(|found: &RunEnd| Ok(f64::from(found.attractor.kind_code())))),
+    MapQuantity::of::<RunEnd>("ends-on", "the motion on which the run of the study ends: period-1 (in step with the dither), locked, quasi-periodic, not-periodic, limit-cycle, rest", Needs::MOTIONS, &[
+        variable(("ends_on", ""), "motion on which the run ends", MOTIONS, OF_END, |points| points.values(RunEnd::code)),
     ]),
     MapQuantity::of::<RunEnd>("peak-to-peak", "peak-to-peak of the observed displacement of the motion on which the run ends", Needs::MOTIONS, &[
         variable(("peak_to_peak", ""), "peak-to-peak of the observed displacement", LENGTH, OF_END, |points| points.values(|found: &RunEnd| Ok(found.attractor.size()))),
@@ -25,11 +25,12 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     ]),
 ];
 
-/// Words of the motions on which runs end, in the order of their codes.
-const MOTIONS: VariableKind = VariableKind::Word {
-    words: &["period-1", "locked", "not-periodic", "limit-cycle", "rest"],
-    unknown: "unknown",
-};
+/// Names of the motions on which runs end, in the order of their codes.
+const MOTION_NAMES: [&str; 6] =
+    ["period-1", "locked", "not-periodic", "limit-cycle", "rest", "quasi-periodic"];
+
+/// The same as words.
+const MOTIONS: VariableKind = VariableKind::Word { words: &MOTION_NAMES, unknown: "unknown" };
 
 /// Statuses of the motions on which runs end, other than known.
 const OF_END: &[Status] =
@@ -48,6 +49,13 @@ struct RunEnd {
 }
 
 impl RunEnd {
+    #[expect(clippy::cast_precision_loss, reason = "one of six words")]
+    fn code(&self) -> Result<f64, Status> {
+        let name = self.attractor.kind_name();
+        let place = MOTION_NAMES.iter().position(|known| *known == name);
+        Ok(place.ok_or(Status::Missing)? as f64)
+    }
+
     fn of(point: &Point<'_>) -> Result<Self, Status> {
         let (study, system) = (point.study()?, point.system()?);
         let start = Protocol::Study.state(study, system).map_err(|_| Status::NoSquealingStart)?;

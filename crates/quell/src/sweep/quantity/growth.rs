@@ -12,7 +12,7 @@ use quell_linear::growth::{Growth, Verdict};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::disc::{Contribution, Contributions};
-use quell_model::{Disc, System};
+use quell_model::{Contact, Disc, System};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::floquet::Effort;
 
@@ -68,6 +68,8 @@ pub(crate) struct SlidingGrowth {
     pub(crate) growth: Growth,
     /// Largest fast slip velocity over the velocity of its surface, over all contacts.
     slip_ratio: f64,
+    /// 2ζ + Fμ̄′ (2.26) of one mass, as `stability` has it.
+    criterion: Result<f64, Status>,
     /// Whether the fast slip of a contact just reaches the velocity of its surface.
     at_corner: bool,
     /// Why it does not hold as stated: the gravest first.
@@ -77,12 +79,21 @@ pub(crate) struct SlidingGrowth {
 /// The same without dither.
 struct UnditheredGrowth(SlidingGrowth);
 
+/// 2ζ + Fμ̄′ of one mass in which friction has this slope.
+fn criterion(system: &System, slope: f64) -> Result<f64, Status> {
+    let mass = system.one_averaged_mass().ok_or(Status::NotOneMass)?;
+    Ok(mass.belt().damping_rate(slope / mass.force(), 1.0))
+}
+
 impl SlidingGrowth {
-    /// By averaging under dither.
+    /// By averaging under dither; where none acts of the small motions themselves.
     ///
     /// # Errors
     /// Why it does not exist.
     pub(crate) fn averaged(system: &System) -> Result<Self, Status> {
+        if !system.is_dithered() {
+            return Self::undithered(system);
+        }
         let average = DitheredSystem::new(system).and_then(|prepared| prepared.average());
         let average = average.map_err(Status::from)?;
         let growth = average.growth().map_err(not_finite)?;
@@ -97,8 +108,10 @@ impl SlidingGrowth {
             (beyond, Status::BeyondRange),
             (without_state, Status::WithoutState),
         ];
+        let slope = average.contacts.first().map_or(0.0, |contact| contact.slope_by_velocity);
         Ok(Self {
             growth,
+            criterion: criterion(system, slope),
             slip_ratio: ratios.fold(0.0, f64::max),
             at_corner: average.contacts.iter().any(|contact| contact.one_sided),
             doubts: doubts.into_iter().filter(|(holds, _)| *holds).map(|(_, why)| why).collect(),
@@ -108,15 +121,25 @@ impl SlidingGrowth {
     /// Without dither.
     fn undithered(system: &System) -> Result<Self, Status> {
         let linear = Linearised::new(system).map_err(|_| Status::NoSteadySliding)?;
-        let growth = spectrum::growth(&linear, &linear.friction()).map_err(not_finite)?;
+        let friction = linear.friction();
+        let growth = spectrum::growth(&linear, &friction).map_err(not_finite)?;
+        let slope = friction.first().map_or(0.0, |friction| friction.by_velocity);
+        let has_state = system.contacts.iter().any(Contact::has_state);
+        let criterion = if has_state { Err(Status::NotOneMass) } else { criterion(system, slope) };
         let beyond = !outside_of_laws(system, digits, None).is_empty();
         let doubts = if beyond { vec![Status::BeyondRange] } else { Vec::new() };
-        Ok(Self { doubts, ..Self::alone(growth) })
+        Ok(Self { criterion, doubts, ..Self::alone(growth) })
     }
 
     /// That of a growth rate alone, in these units.
     fn alone(growth: Growth) -> Self {
-        Self { growth, slip_ratio: 0.0, at_corner: false, doubts: Vec::new() }
+        let criterion = Err(Status::NotOneMass);
+        Self { growth, criterion, slip_ratio: 0.0, at_corner: false, doubts: Vec::new() }
+    }
+
+    /// The criterion; at a corner, where it jumps, it has no value.
+    pub(super) fn criterion(&self) -> Result<f64, Status> {
+        if self.at_corner { Err(Status::AtCorner) } else { self.criterion }
     }
 
     fn of_disc(found: Growth, rate: f64) -> Self {
@@ -134,6 +157,7 @@ impl SlidingGrowth {
             Verdict::Unstable => Ok(0.0),
             Verdict::Stable => Ok(1.0),
             Verdict::Undecided if self.at_corner => Err(Status::AtCorner),
+            Verdict::Undecided if !self.growth.error.is_finite() => Err(Status::NotFinite),
             Verdict::Undecided => Err(Status::WithinError),
         }
     }

@@ -1,4 +1,4 @@
-//! Averaging of one mass: the criterion of the dissertation, and its limit of high dither frequency, R → ∞.
+//! Averaging of one mass: the criterion of the dissertation, and averages in its limit of high dither frequency, R → ∞.
 
 use quell_linear::averaging::{
     AveragedVerdict, Averaging, Criterion, CriticalAmplitude, SlopeSide, UndecidedBecause,
@@ -8,8 +8,8 @@ use quell_linear::growth::of_criterion;
 use quell_model::units::Quantity;
 use quell_model::{Belt, OneMass, System};
 
-use super::growth;
-use crate::contact_state::without_states;
+use super::growth::SlidingGrowth;
+use crate::contact_state::{FastContact, without_state};
 use crate::needs::Needs;
 use crate::range;
 use crate::sweep::map_quantity::{
@@ -23,17 +23,17 @@ const VELOCITY: VariableKind = VariableKind::Number(Quantity::Velocity);
 /// The quantities.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
-    MapQuantity::of::<OwnCriterion>("criterion", "criterion of stability 2ζ + Fμ̄′ by finite-R averaging: unstable where negative", Needs::ONE_MASS, &[
-        variable(("criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability", RATIO, OF_AVERAGES, |points| points.values(|found: &OwnCriterion| found.0.value())),
+    MapQuantity::of::<SlidingGrowth>("criterion", "criterion of stability 2ζ + Fμ̄′ by finite-R averaging: unstable where negative", Needs::ONE_MASS, &[
+        variable(("criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability", RATIO, OF_AVERAGES, |points| points.values(SlidingGrowth::criterion)),
     ]),
     MapQuantity::of::<LimitCriterion>("limit-verdict", "averaged verdict (2.26) in the limit of high dither frequency, R → ∞: that of the dissertation", Needs::ONE_MASS, &[
-        variable(("limit_verdict", ""), "averaged verdict on steady sliding for R → ∞", VERDICTS, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.0.verdict())),
+        variable(("limit_verdict", ""), "averaged verdict on steady sliding for R → ∞", VERDICTS, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.verdict())),
     ]),
     MapQuantity::of::<LimitCriterion>("limit-criterion", "criterion of averaged stability 2ζ + Fμ̄′ (2.26) in the limit R → ∞", Needs::ONE_MASS, &[
-        variable(("limit_criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability for R → ∞", RATIO, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.0.value())),
+        variable(("limit_criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability for R → ∞", RATIO, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.value())),
     ]),
     MapQuantity::of::<LimitCriterion>("limit-growth", "growth rate of small slow motions by averaging in the limit R → ∞", Needs::ONE_MASS, &[
-        variable(("limit_growth", "Re ρ"), "averaged growth rate of small slow motions for R → ∞", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.0.growth())),
+        variable(("limit_growth", "Re ρ"), "averaged growth rate of small slow motions for R → ∞", VariableKind::Rate, OF_AVERAGES, |points| points.values(|found: &LimitCriterion| found.growth())),
     ]),
     MapQuantity::of::<LimitCriticals>("limit-critical-amplitude", "smallest and largest amplitude ratio α = D/R of the first dither at which averaged stability changes in the limit R → ∞", Needs::ONE_MASS, &[
         variable(("limit_critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither for R → ∞", VELOCITY, OF_AVERAGES, |points| points.values(LimitCriticals::first)),
@@ -47,22 +47,22 @@ const CRITERION: f64 = 1e-4;
 /// How often a search of critical amplitudes computes one.
 const SEARCH: f64 = 100.0;
 
-/// A criterion, and what qualifies it.
-struct QualifiedCriterion {
+/// The criterion in the limit of high frequency, and what qualifies it.
+struct LimitCriterion {
     criterion: Criterion,
     /// ω of the mass: what one of its rates is in the units of the study.
     rate: f64,
     status: Status,
 }
 
-impl QualifiedCriterion {
-    fn of(system: &System, averaging: Averaging) -> Result<Self, Status> {
+impl LimitCriterion {
+    fn of(system: &System) -> Result<Self, Status> {
         let mass = system.one_averaged_mass().ok_or(Status::NotOneMass)?;
         let belt = mass.belt();
-        if averaging == Averaging::Limit && belt.dithers().is_empty() {
+        if belt.dithers().is_empty() {
             return Err(Status::NoDither);
         }
-        let criterion = criterion(belt, averaging).map_err(Status::from)?;
+        let criterion = criterion(belt, Averaging::Limit).map_err(Status::from)?;
         let status = qualified(
             system,
             (belt, belt.fast_velocity()),
@@ -84,6 +84,9 @@ impl QualifiedCriterion {
     }
 
     fn verdict(&self) -> Result<f64, Status> {
+        if !self.criterion.value.is_finite() && self.criterion.effective.side == SlopeSide::Both {
+            return Err(Status::NotFinite);
+        }
         match self.criterion.verdict {
             AveragedVerdict::Unstable => Ok(0.0),
             AveragedVerdict::Stable => Ok(1.0),
@@ -99,40 +102,20 @@ impl QualifiedCriterion {
 /// state, under a fast slip velocity of this amplitude.
 fn qualified(system: &System, (belt, fast): (&Belt, f64), slip: f64) -> Status {
     let leaves = belt.friction().range().is_some_and(|range| slip > range.upper);
-    let lowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
-    let has_state = system.contacts.iter().any(quell_model::Contact::has_state);
+    let fast = FastContact { slip: fast, speed: belt.belt_velocity() };
+    let bristles = system.contacts.iter().any(|contact| contact.friction.bristles().is_some());
     if leaves {
         Status::BeyondRange
-    } else if has_state && !without_states(system, Some((&[fast], lowest))).is_empty() {
+    } else if bristles || without_state(system, 0, fast).is_some() {
         Status::WithoutState
     } else {
         Status::Known
     }
 }
 
-/// By finite-R averaging.
-struct OwnCriterion(QualifiedCriterion);
-
-/// In the limit of high frequency.
-struct LimitCriterion(QualifiedCriterion);
-
-impl PointComputation for OwnCriterion {
-    fn at(points: &ChunkPoints<'_>) -> Vec<Result<Self, Status>> {
-        points.each(|point| Ok(Self(QualifiedCriterion::of(point.system()?, Averaging::FiniteR)?)))
-    }
-
-    fn seconds(subject: &Subject) -> f64 {
-        CRITERION.max(growth::seconds(subject))
-    }
-
-    fn qualification(&self, _: f64) -> Status {
-        self.0.status
-    }
-}
-
 impl PointComputation for LimitCriterion {
     fn at(points: &ChunkPoints<'_>) -> Vec<Result<Self, Status>> {
-        points.each(|point| Ok(Self(QualifiedCriterion::of(point.system()?, Averaging::Limit)?)))
+        points.each(|point| Self::of(point.system()?))
     }
 
     fn seconds(_: &Subject) -> f64 {
@@ -140,7 +123,7 @@ impl PointComputation for LimitCriterion {
     }
 
     fn qualification(&self, _: f64) -> Status {
-        self.0.status
+        self.status
     }
 }
 

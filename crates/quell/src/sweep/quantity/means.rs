@@ -36,6 +36,7 @@ const OF_MEANS: &[Status] = &[
     Status::NoSquealingStart,
     Status::NoDither,
     Status::OnlyNormalDither,
+    Status::RecordLength,
 ];
 
 /// Means of a steady response.
@@ -52,7 +53,7 @@ struct Means {
 impl Means {
     fn of(point: &Point<'_>) -> Result<Self, Status> {
         let (study, found) = (point.study()?, measured(point)?);
-        let record = &found.response.dithered;
+        let record = &found.dithered;
         let inputs = record.inputs.iter().zip(&study.system().inputs);
         let tangential = inputs.filter(|(_, input)| matches!(input.target, InputTarget::Force(_)));
         let costs: Vec<&InputCost> =
@@ -60,15 +61,13 @@ impl Means {
         let strokes = costs.iter().map(|cost| cost.stroke);
         let stroke = strokes.max_by(f64::total_cmp);
         let power = costs.iter().map(|cost| cost.power).sum();
-        let without =
-            if found.response.has_dither() { Status::OnlyNormalDither } else { Status::NoDither };
+        let without = if found.has_dither() { Status::OnlyNormalDither } else { Status::NoDither };
         let loads = record.contacts.iter().map(|contact| contact.least_load);
         Ok(Self {
             friction: record.contacts.iter().map(|contact| contact.friction).sum(),
             dither: stroke.map(|stroke| (power, stroke)).ok_or(without),
             least_load: loads.fold(f64::INFINITY, f64::min),
-            beyond_range: !beyond_laws(study, |contact| found.response.largest_slip(contact))
-                .is_empty(),
+            beyond_range: !beyond_laws(study, |contact| found.largest_slip(contact)).is_empty(),
         })
     }
 }

@@ -18,6 +18,7 @@ mod response;
 use super::map_quantity::MapQuantity;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::nearest;
+use crate::run::system::measured_alone;
 use crate::study::Study;
 
 pub(crate) use growth::{SlidingGrowth, growth_of_disc};
@@ -60,8 +61,12 @@ impl MapQuantity {
     /// A complaint with the quantities of the study.
     pub(super) fn accepts(&self, study: &Study) -> Result<(), Box<Complaint>> {
         let name = format!("map --quantity {}", self.name);
+        let measured = study.system().ok().and_then(|study| measured_alone(&study, &name));
+        if let Some(complaint) = measured {
+            return Err(Box::new(complaint));
+        }
         let Some(refused) = self.needs.refused(study, &name) else { return Ok(()) };
-        if self.needs.suit(study) {
+        if study.varies_by().is_some() || self.needs.suit(study) {
             return Err(Box::new(refused));
         }
         let all = QUANTITIES.iter().copied().flatten();

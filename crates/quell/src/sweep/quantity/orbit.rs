@@ -48,7 +48,11 @@ impl BaseOrbit {
 impl PointComputation for BaseOrbit {
     fn at(points: &ChunkPoints<'_>) -> Vec<Result<Self, Status>> {
         points.each(|point| {
-            let orbit = base_motion(point.system()?, BASE_STEPS).map_err(|why| match why {
+            let system = point.system()?;
+            if !system.is_dithered() {
+                return Err(Status::NoDither);
+            }
+            let orbit = base_motion(system, BASE_STEPS).map_err(|why| match why {
                 NoMotionOrbit::NoDither => Status::NoDither,
                 NoMotionOrbit::NoSliding(_) => Status::NoSteadySliding,
                 NoMotionOrbit::NoImage(NoImage::Stopped(_)) => Status::Stalled,

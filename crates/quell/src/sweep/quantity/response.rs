@@ -6,17 +6,15 @@ use std::any::TypeId;
 
 use quell_dynamics::motion::MotionStart;
 use quell_dynamics::response::{
-    Effect, PlannedResponse, ResponsePlan, ResponseSummary, respond_many,
+    Effect, PlannedResponse, ResponsePlan, ResponseRefused, ResponseSummary, SteadyResponse,
+    respond, respond_many,
 };
 use quell_dynamics::simulation::within;
 
 use crate::cite::Task;
-use crate::complaint::Failure;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::needs::Needs;
-use crate::run::response::{
-    MeasuredResponse, RECORD_PERIODS, ResponseRequest, SETTLE_PERIODS, plan_of, run,
-};
+use crate::run::response::{RECORD_PERIODS, ResponseRequest, SETTLE_PERIODS, plan_of};
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::start_of;
 use crate::study::{SystemStart, SystemStudy};
@@ -71,6 +69,7 @@ const OF_RESPONSE: &[Status] = &[
     Status::StillChanging,
     Status::Unresolved,
     Status::NoDither,
+    Status::RecordLength,
 ];
 
 /// Seconds of one dither period of one mass with events, and of one slow period without dither.
@@ -123,13 +122,18 @@ fn no_start(study: &SystemStudy) -> Status {
     }
 }
 
-/// The whole answer of `response` at a point.
-pub(super) fn measured(point: &Point<'_>) -> Result<MeasuredResponse, Status> {
+/// The whole response at a point.
+pub(super) fn measured(point: &Point<'_>) -> Result<SteadyResponse, Status> {
     let study = point.study()?;
-    run(study, ResponseRequest::default()).map_err(|why| match why {
-        Failure::Wrong(_) => no_start(study),
-        Failure::Failed { .. } => Status::Stalled,
-    })
+    let (start, plan) = prepared(study)?;
+    respond(study.system(), &start, &plan).map_err(|why| refused(&why))
+}
+
+fn refused(why: &ResponseRefused) -> Status {
+    match why {
+        ResponseRefused::TooLong { .. } | ResponseRefused::TooShort { .. } => Status::RecordLength,
+        ResponseRefused::Immobile(_) | ResponseRefused::Stopped(_) => Status::Stalled,
+    }
 }
 
 impl PointComputation for Responded {
@@ -144,7 +148,8 @@ impl PointComputation for Responded {
         let mut found = respond_many(&planned).into_iter();
         let each = prepared.into_iter().map(|prepared| {
             let (study, (start, plan)) = prepared?;
-            let summary = found.next().and_then(Result::ok).ok_or(Status::Stalled)?;
+            let summary = found.next().ok_or(Status::Missing)?;
+            let summary = summary.map_err(|why| refused(&why))?;
             let beyond = beyond_laws(study, |contact| summary.largest_slip[contact]);
             Ok(Self { summary, start, plan, beyond_range: !beyond.is_empty() })
         });
