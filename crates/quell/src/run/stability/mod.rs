@@ -186,7 +186,7 @@ pub(crate) fn averaged_verdict(growth: Growth, at_corner: bool) -> Verdict {
 }
 
 impl SlidingStability {
-    /// The verdict, as [`averaged_verdict`] has it.
+    /// The verdict: undecided too where the fast slip of a contact just reaches the velocity of its surface.
     pub fn verdict(&self) -> Verdict {
         averaged_verdict(self.spectrum.growth, self.at_corner())
     }
