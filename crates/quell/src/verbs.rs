@@ -171,7 +171,7 @@ impl Verbs {
         if let Some(disc) = self.disc() {
             return answer(&disc, disc::stability::run(&disc));
         }
-        let study = self.system("stability")?;
+        let study = belt_system::system_of(&self.study)?;
         match study.frequency_response() {
             Some(response) => answer(&study, measured::run(&study, response)),
             None => answer(&study, stability::run(&study)),
@@ -348,7 +348,7 @@ impl Verbs {
         if let Some(disc) = self.disc() {
             return answer(&disc, disc::design::run(&disc));
         }
-        let study = self.system("design")?;
+        let study = belt_system::system_of(&self.study)?;
         answer(&study, design::run(&study))
     }
 
@@ -376,7 +376,7 @@ impl Verbs {
         if let Some(disc) = self.disc() {
             return answer(&disc, probability::run(&disc, request, running));
         }
-        let study = self.system("probability")?;
+        let study = belt_system::system_of(&self.study)?;
         answer(&study, probability::run(&study, request, running))
     }
 
@@ -398,7 +398,7 @@ impl Verbs {
         if let Some(disc) = self.disc() {
             return answer(&disc, Ok(disc::modes::run(&disc)));
         }
-        let study = self.system("modes")?;
+        let study = belt_system::system_of(&self.study)?;
         answer(&study, modes::run(&study))
     }
 }

@@ -1,4 +1,4 @@
-//! `quell modes`: natural frequencies and shapes of a disc or a system.
+//! `quell modes`: natural frequencies and shapes of a belt, a disc or a system.
 
 use clap::Args;
 use quell::Failure;
@@ -7,7 +7,7 @@ use quell::verbs::verbs;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Computes the natural frequencies and shapes of a disc or a system, and the critical speeds of a disc
+/// Computes the natural frequencies and shapes of a belt, a disc or a system, and the critical speeds of a disc
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

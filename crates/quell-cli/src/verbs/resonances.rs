@@ -10,7 +10,7 @@ use super::numbers::pair;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Finds the speeds at which a disc can squeal and clear dither frequencies, or how far the dither of a system reaches its contacts
+/// Finds the speeds at which a disc can squeal and clear dither frequencies, or how far the dither of a belt or a system reaches its contacts
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     /// Range of speeds of a disc to keep clear; needs --frequency
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, value_hint = ValueHint::Other, requires = "frequency")]
     clear: Option<String>,
-    /// Range of dither frequencies: of a disc ratios R or with units such as 2kHz:20kHz, with --clear; of a system angular
+    /// Range of dither frequencies: of a disc ratios R or with units such as 2kHz:20kHz, with --clear; otherwise angular
     /// frequencies or with units
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     frequency: Option<String>,

@@ -9,12 +9,12 @@ use super::numbers::{number, window};
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Decides whether steady sliding is stable (a belt by averaging, a disc or system by eigenvalues), and what would change that
+/// Decides whether steady sliding is stable (by eigenvalues, under dither by averaging), and what would change that
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Follows the eigenvalues of a system over this number, such as contact.pad.friction.coefficient
+    /// Follows the eigenvalues of a belt or a system over this number, such as contact.pad.friction.coefficient
     #[arg(long, value_name = "PATH", requires_all = ["from", "to"], value_hint = ValueHint::Other)]
     parameter: Option<String>,
     /// Smallest value, in the unit of the key or with a unit
@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     /// Range of the second number
     #[arg(long, value_name = "FROM:TO", requires = "along", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     between: Option<String>,
-    /// Decides by Floquet exponents of the dithered motion of a system, if that is pure slip
+    /// Decides by Floquet exponents of the dithered motion of a belt or a system, if that is pure slip
     #[arg(long, conflicts_with = "parameter")]
     exact: bool,
     #[command(flatten)]

@@ -157,7 +157,7 @@ class Study(CheckedStudy):
         between: State | None = None,
         exact: bool = False,
     ) -> results.Stability | results.TrackedStability | results.ExactStability:
-        """The stability of steady sliding, and of a system also its eigenvalues over a parameter.
+        """The stability of steady sliding, and of a belt or a system its eigenvalues over a parameter.
 
         Belt: averaged stability, equation (2.26), and every critical amplitude. Disc: the largest growth rate by eigenvalues
         or Floquet exponents, with its error. System: every eigenvalue, averaged over the dither.
@@ -170,7 +170,7 @@ class Study(CheckedStudy):
         along, between :
             System: a second number and its range, along which each threshold is followed as a curve.
         exact :
-            System: whether to decide by Floquet exponents of the dithered motion, if that is pure slip.
+            Belt or system: whether to decide by Floquet exponents of the dithered motion, if that is pure slip.
 
         Returns
         -------
@@ -921,7 +921,7 @@ class Study(CheckedStudy):
         return results.RecordFit._of(self, self._native.fit_record((place, freed, fixed), time, texts))
 
     def modes(self) -> results.Modes:
-        """Natural frequencies and shapes of a disc or of a system, and critical speeds of a disc."""
+        """Natural frequencies and shapes of a belt, a disc or a system, and critical speeds of a disc."""
         return results.Modes._of(self, self._native.modes())
 
     @keywords
@@ -935,7 +935,7 @@ class Study(CheckedStudy):
     ) -> results.Resonances:
         """Speeds at which waves of a disc meet, the meetings that can be unstable, and clear dither frequencies.
 
-        System: the slip at each contact per unit of each dither, over the dither frequency.
+        Belt or system: the slip at each contact per unit of each dither, over the dither frequency.
 
         Parameters
         ----------

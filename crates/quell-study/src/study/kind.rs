@@ -125,9 +125,7 @@ impl Study {
     /// The units of the numbers of a study and of its answers, those of a belt with its mass and of a system.
     pub fn units(&self) -> UnitSystem {
         match self.kind() {
-            Kind::Belt(setup) => {
-                setup.belt().scales().map_or(UnitSystem::None, |scales| scales.units())
-            }
+            Kind::Belt(setup) => setup.units(),
             Kind::Disc(_) => self.file_units(),
             Kind::System(setup) => setup.units(),
         }

@@ -36,9 +36,9 @@ pub(super) struct DiscSubject {
 }
 
 impl DiscSubject {
-    fn of(study: &DiscStudy, disc: Disc) -> Self {
-        // Every point has the units of the study, and an ω_ref of its own.
-        let scales = disc.scales(0).filter(|_| DiscUnits::of(study).is_some());
+    /// Every point has the units of the study, and an ω_ref of its own.
+    fn of(study: &DiscStudy, disc: Disc, has_units: bool) -> Self {
+        let scales = disc.scales(0).filter(|_| has_units);
         let rate = scales.map_or(1.0, |scales| scales.angular_frequency());
         Self { disc, parts: study.parts(), rate }
     }
@@ -48,17 +48,21 @@ impl Subject {
     /// That of a whole study; `None` where its numbers form no valid system.
     pub(super) fn of(study: &Study) -> Option<Self> {
         match study.disc() {
-            Ok(disc) => Some(Self::Disc(Box::new(DiscSubject::of(&disc, disc.disc().clone())))),
+            Ok(study) => {
+                let (disc, has_units) = (study.disc().clone(), DiscUnits::of(&study).is_some());
+                Some(Self::Disc(Box::new(DiscSubject::of(&study, disc, has_units))))
+            }
             Err(_) => Some(Self::System(Box::new(study.model().at(&[]).ok()?))),
         }
     }
 
-    /// The number of states of its equations.
-    pub(super) fn states(&self) -> f64 {
-        match self {
+    /// Work of a computation over that for a number of states, whose square it follows; of few states the rest of it decides.
+    pub(super) fn work_over(&self, states: f64) -> f64 {
+        let own = match self {
             Self::Disc(subject) => 2.0 * subject.disc.coordinates() as f64,
             Self::System(system) => system.state_size() as f64,
-        }
+        };
+        (own / states).powi(2).max(0.1)
     }
 }
 
@@ -127,12 +131,13 @@ impl<'g> ChunkPoints<'g> {
     /// The points with these indices in a grid.
     pub(super) fn of(grid: &'g Grid, indices: &[usize]) -> Self {
         let disc = grid.study().disc().ok();
+        let has_units = disc.as_ref().is_some_and(|study| DiscUnits::of(study).is_some());
         let subject = |index: usize| {
             let numbers = grid.numbers_at(index);
             Some(match &disc {
                 Some(study) => {
                     let disc = study.setup_at(&numbers).ok()?.disc().clone();
-                    Subject::Disc(Box::new(DiscSubject::of(study, disc)))
+                    Subject::Disc(Box::new(DiscSubject::of(study, disc, has_units)))
                 }
                 None => Subject::System(Box::new(grid.study().model().at(&numbers).ok()?)),
             })

@@ -1,6 +1,6 @@
 //! Why a number of a map is known or unknown: the codes of `<quantity>_status`.
 //!
-//! Published codes never change, because stores keep them.
+//! Published codes never change, because stores keep them: 32 was that of a measured structure, which is refused now.
 
 use quell_dynamics::response::{Uncertain, Undefined};
 use quell_linear::averaging::AveragingError;
@@ -130,6 +130,11 @@ impl Status {
     /// Its code in a store.
     pub const fn code(self) -> u8 {
         self as u8
+    }
+
+    /// The status of a known number, whose slip may leave the range of a friction law.
+    pub(super) const fn of_range(is_left: bool) -> Self {
+        if is_left { Self::BeyondRange } else { Self::Known }
     }
 
     /// Whether the number is known.

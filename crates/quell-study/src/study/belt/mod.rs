@@ -117,6 +117,11 @@ impl BeltSetup {
     pub fn belt(&self) -> &Belt {
         &self.belt
     }
+
+    /// The units of answers, and of the system of the belt.
+    pub fn units(&self) -> UnitSystem {
+        self.belt.scales().map_or(UnitSystem::None, |scales| scales.units())
+    }
 }
 
 impl BeltStudy {
@@ -147,7 +152,7 @@ impl BeltStudy {
 
     /// The units of answers, and of the system of the belt.
     pub fn units(&self) -> UnitSystem {
-        self.scales().map_or(UnitSystem::None, |scales| scales.units())
+        self.kind().units()
     }
 
     /// What the key at a path gives for one number of the equations, and the path of that number; `None` where the study has no such

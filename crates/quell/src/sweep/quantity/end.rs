@@ -84,10 +84,10 @@ impl PointComputation for RunEnd {
     }
 
     fn seconds(subject: &Subject) -> f64 {
-        END * (subject.states() / 4.0).powi(2).max(0.1)
+        END * subject.work_over(4.0)
     }
 
     fn qualification(&self, _: f64) -> Status {
-        if self.beyond_range { Status::BeyondRange } else { Status::Known }
+        Status::of_range(self.beyond_range)
     }
 }

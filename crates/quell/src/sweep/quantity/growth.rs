@@ -58,7 +58,7 @@ const GROWTH: f64 = 5e-5;
 
 /// Seconds of one growth rate.
 pub(super) fn seconds(subject: &Subject) -> f64 {
-    GROWTH * (subject.states() / 10.0).powi(2).max(0.1)
+    GROWTH * subject.work_over(10.0)
 }
 
 /// The largest growth rate of one study.

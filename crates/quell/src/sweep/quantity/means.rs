@@ -84,6 +84,6 @@ impl PointComputation for Means {
     }
 
     fn qualification(&self, _: f64) -> Status {
-        if self.beyond_range { Status::BeyondRange } else { Status::Known }
+        Status::of_range(self.beyond_range)
     }
 }

@@ -63,6 +63,6 @@ impl PointComputation for BaseOrbit {
     }
 
     fn seconds(subject: &Subject) -> f64 {
-        ORBIT * (subject.states() / 4.0).powi(2).max(0.1)
+        ORBIT * subject.work_over(4.0)
     }
 }

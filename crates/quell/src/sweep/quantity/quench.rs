@@ -136,12 +136,12 @@ impl PointComputation for QuenchNumbers {
     }
 
     fn seconds(subject: &Subject) -> f64 {
-        let following = QUENCH * (subject.states() / 4.0).powi(2).max(0.1);
+        let following = QUENCH * subject.work_over(4.0);
         critical::SEARCH * growth::seconds(subject) + following
     }
 
     fn qualification(&self, _: f64) -> Status {
-        if self.beyond_range { Status::BeyondRange } else { Status::Known }
+        Status::of_range(self.beyond_range)
     }
 }
 

@@ -161,7 +161,7 @@ impl PointComputation for Responded {
     }
 
     fn qualification(&self, _: f64) -> Status {
-        if self.beyond_range { Status::BeyondRange } else { Status::Known }
+        Status::of_range(self.beyond_range)
     }
 }
 
@@ -184,7 +184,7 @@ impl PointComputation for EffectOfDither {
     }
 
     fn qualification(&self, _: f64) -> Status {
-        if self.beyond_range { Status::BeyondRange } else { Status::Known }
+        Status::of_range(self.beyond_range)
     }
 }
 
@@ -208,5 +208,5 @@ fn seconds(subject: &Subject) -> f64 {
 
 /// Seconds of a response with all that is measured.
 pub(super) fn seconds_alone(subject: &Subject) -> f64 {
-    RESPONSE * (subject.states() / 4.0).powi(2).max(0.1)
+    RESPONSE * subject.work_over(4.0)
 }
