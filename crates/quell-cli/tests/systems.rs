@@ -215,7 +215,7 @@ fn outputs_are_tested_before_the_work_begins() {
     let why = complaint(&["stability", "two-mass-drive.toml", "--exact", "--plot", plot]);
     assert!(why.contains("no picture"), "{why}");
     let help = quell(&["modes", "--help"]);
-    assert!(String::from_utf8_lossy(&help.stdout).contains("of a disc or a system"));
+    assert!(String::from_utf8_lossy(&help.stdout).contains("of a belt, a disc or a system"));
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 
