@@ -2,8 +2,8 @@
 //! agree.
 
 use quell_dynamics::attractor::{
-    AttractorKind, AttractorSettings, Patience, Reached, SettleOutcome, measure, orbit_reached,
-    reached, settle,
+    AttractorKind, AttractorSettings, Patience, SettleOutcome, measure, orbit_reached,
+    outcome_of_run, settle,
 };
 use quell_dynamics::motion::orbit::{sliding_state, squealing_state};
 use quell_dynamics::orbit::cycle::{FreeEnd, cycles, free_end, keeps_vibrating};
@@ -12,8 +12,8 @@ use quell_dynamics::orbit::{OrbitVerdict, from_sliding, near};
 use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::InitialState;
-use quell_model::{LawKind, System};
-use quell_zoo::belt::{self, over_velocities, undithered_belt};
+use quell_model::{LawKind, System, Waveform};
+use quell_zoo::belt::{self, over_velocities, stribeck_under, undithered_belt};
 use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};
 
@@ -82,6 +82,26 @@ fn a_limit_cycle_does_not_depend_on_the_frequency_of_a_silent_dither() {
     }
 }
 
+/// Just below the threshold, at 0.4965619, the slow motion about the unstable base response is nearly as small as what counts as one
+/// state. It is no motion in step with the dither, and not quiet.
+#[test]
+fn a_small_slow_motion_about_an_unstable_response_is_not_quiet() {
+    let at = |amplitude| {
+        let belt = stribeck_under(Waveform::Sine, amplitude);
+        let settings = AttractorSettings::new(&belt).expect("a period");
+        let settled = settle(&settings, Start::REST, Patience::SWEEP).expect("no stall");
+        let found = measure(&settings, &settled).expect("no stall").expect("an attractor");
+        let outcome = outcome_of_run(&belt.system(), &[0.0, 0.0]).expect("an end");
+        assert_eq!(outcome.is_quiet(), Some(found.quiet), "{amplitude}");
+        found
+    };
+    let below = at(0.496_557);
+    assert!(!below.quiet && !below.base, "{below:?}");
+    assert!(matches!(below.kind, AttractorKind::Periodic { periods: 13, .. }), "{:?}", below.kind);
+    let above = at(0.496_564);
+    assert!(above.quiet && above.base, "{above:?}");
+}
+
 /// The squeal of the Stribeck law shrinks to zero at the Hopf point and not before: starts, cycles, thresholds and orbits agree.
 #[test]
 fn squeal_ends_at_the_hopf_point() {
@@ -97,8 +117,8 @@ fn squeal_ends_at_the_hopf_point() {
         let end = free_end(&at, Start::REST).expect("an end");
         assert_eq!(matches!(end, FreeEnd::Cycle(_)), squeals, "{share}");
         assert_eq!(keeps_vibrating(&at, Start::REST), Ok(squeals), "{share}");
-        let ends = if squeals { Reached::Elsewhere } else { Reached::Base };
-        assert_eq!(reached(&at, Start::REST), Ok(ends), "{share}");
+        let ends = outcome_of_run(&at.system(), &[0.0, 0.0]).expect("an end");
+        assert_eq!(ends.is_quiet(), Some(!squeals), "{share}");
     }
     // Beyond it nothing squeals, and a run from there starts from steady sliding.
     let at = |values: &[f64]| Ok(belt.with_belt_velocity(values[0]).expect("valid").system());

@@ -1,7 +1,8 @@
 //! Periodic responses against identities, differences and known thresholds.
 
-use quell_dynamics::attractor::orbit_reached;
-use quell_dynamics::motion::orbit::{RunOutcome, RunSwitches, StartOfRun, VariedRun, values_tried};
+use quell_dynamics::attractor::{
+    RunOutcome, RunSwitches, StartOfRun, VariedRun, orbit_reached, values_tried,
+};
 use quell_dynamics::orbit::threshold::{Threshold, ThresholdKind, local_thresholds};
 use quell_dynamics::orbit::{Orbit, OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, Start, simulate};

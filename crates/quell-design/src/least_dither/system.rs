@@ -1,8 +1,8 @@
 //! Any linear structure with friction contacts as one whose dither is designed.
 
+use quell_dynamics::attractor::{RunOutcome, SWITCH_CLOSENESS, VariedRun, values_tried};
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoMotionOrbit, RunOutcome, SWITCH_CLOSENESS, VariedRun, base_motion,
-    motion_thresholds, sliding_verdict, squealing_state, values_tried,
+    MotionOrbit, NoMotionOrbit, base_motion, motion_thresholds, sliding_verdict, squealing_state,
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{BAND_END, vibration_frequency};

@@ -10,13 +10,12 @@ use super::measure::{Attractor, AttractorKind, measure};
 use super::settings::AttractorSettings;
 use super::settle::{Patience, Settled, settle_many};
 use super::system_attractor::{MotionKind, SAME, SystemAttractor};
-use crate::band::is_above_the_band;
 use crate::motion::orbit::{
     BASE_STEPS, CycleSamples, MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion,
     displaced, free_cycle, settled, settled_many, sliding_state,
 };
 use crate::motion::{Immobile, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped};
-use crate::orbit::{NoOrbit, Unsettled};
+use crate::orbit::{NoOrbit, OrbitVerdict, Unsettled};
 use crate::simulation::{Stalled, Start};
 
 /// Digits of a time in a message.
@@ -58,6 +57,21 @@ pub enum NoEnd {
     NoOrbit(NoMotionOrbit),
     /// No limit cycle was found.
     NoCycle(NoCycle),
+}
+
+impl NoEnd {
+    /// A run of one mass stopped.
+    pub(super) fn of_mass(mass: &OneMass, why: &Stalled) -> Self {
+        Self::Stopped { time: why.time / mass.rate(), why: why.why }
+    }
+
+    /// A run of one mass had not settled; where the base response, to which it may converge, was not found, for that reason.
+    pub(super) fn unsettled(settings: &AttractorSettings<'_>, settled: &Settled) -> Self {
+        match &settings.base {
+            Err(why) if !why.is_absence() => Self::NoSection(*why),
+            _ => Self::Unsettled(settled.why().unwrap_or(Unsettled::Moving)),
+        }
+    }
 }
 
 impl fmt::Display for NoEnd {
@@ -140,17 +154,13 @@ fn ends_of_one_mass(
     };
     let settled = settle_many(&settings, &starts_of_mass(mass, starts), Patience::SWEEP);
     let end = |settled: Result<Settled, Stalled>| {
-        let stopped = |why: Stalled| NoEnd::Stopped { time: why.time / mass.rate(), why: why.why };
+        let stopped = |why: Stalled| NoEnd::of_mass(mass, &why);
         let settled = settled.map_err(stopped)?;
         let found = measure(&settings, &settled).map_err(stopped)?;
         let periods = u32::try_from(settled.periods).unwrap_or(u32::MAX);
-        match found {
-            Some(found) => {
-                let attractor = measured_of_one_mass((system, mass), row, &found, periods)?;
-                Ok(EndOfRun { attractor, periods })
-            }
-            None => Err(NoEnd::Unsettled(settled.why().unwrap_or(Unsettled::Moving))),
-        }
+        let found = found.ok_or_else(|| NoEnd::unsettled(&settings, &settled))?;
+        let attractor = measured_of_one_mass((system, mass), row, &found, periods)?;
+        Ok(EndOfRun { attractor, periods })
     };
     settled.into_iter().map(end).collect()
 }
@@ -220,13 +230,14 @@ fn under_dither(
     found: Result<SettledMotion, NoMotionOrbit>,
 ) -> Result<EndOfRun, NoEnd> {
     match found {
-        Ok(SettledMotion { orbit, multiple, periods }) => {
+        Ok(found) => {
+            let quiet = found.is_quiet(system);
+            let SettledMotion { orbit, multiple, periods } = found;
             let states = at_periods(system, &orbit, multiple)?;
             let samples = CycleSamples::over(system, row, &orbit.state, orbit.period);
             let kind = MotionKind::Periodic { periods: multiple, radius: orbit.radius() };
             let seen = SystemAttractor::new(kind, row, states, &samples);
             let base = (multiple == 1).then(|| is_base(system, &orbit.state)).flatten();
-            let quiet = multiple == 1 || is_above_the_band(system, orbit.period);
             Ok(EndOfRun { attractor: SystemAttractor { base, quiet, ..seen }, periods })
         }
         Err(NoMotionOrbit::Unsettled { periods, mut last, is_steady: true }) => {
@@ -249,19 +260,39 @@ fn is_base(system: &System, state: &[f64]) -> Option<bool> {
     Some(off <= SAME * size)
 }
 
+/// The motion without dither on which a run ends.
+pub(super) enum FreeMotion {
+    /// A limit cycle.
+    Cycle(MotionOrbit),
+    /// Rest or steady sliding, with its state.
+    Rest(Vec<f64>),
+}
+
+/// The motion without dither on which a run from a state ends. A run on an unstable cycle leaves it at the slightest disturbance: that is
+/// not its end.
+pub(super) fn free_motion(system: &System, start: &[f64]) -> Result<FreeMotion, NoEnd> {
+    match free_cycle(system, &displaced(system, start)) {
+        Ok(cycle) if cycle.verdict() == OrbitVerdict::Unstable => {
+            Err(NoEnd::Unsettled(Unsettled::Dwelling))
+        }
+        Ok(cycle) => Ok(FreeMotion::Cycle(cycle)),
+        Err(NoCycle::Rest { state, .. }) => Ok(FreeMotion::Rest(state)),
+        Err(why) => Err(NoEnd::NoCycle(why)),
+    }
+}
+
 fn on_free_motion(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, NoEnd> {
-    let (kind, state, length, passed) = match free_cycle(system, &displaced(system, start)) {
-        Ok(cycle) => {
+    let (kind, state, length, passed) = match free_motion(system, start)? {
+        FreeMotion::Cycle(cycle) => {
             let kind = MotionKind::Cycle { period: cycle.period, radius: cycle.radius() };
             let passed = cycle.events.into_iter().map(|event| event.state).collect();
             (kind, cycle.state, cycle.period, passed)
         }
-        Err(NoCycle::Rest { state, .. }) => {
+        FreeMotion::Rest(state) => {
             // Long enough to show which contacts stick.
             let motion = Motion::new(system).map_err(NoEnd::Immobile)?;
             (MotionKind::Rest, state, motion.time_scale(), Vec::new())
         }
-        Err(why) => return Err(NoEnd::NoCycle(why)),
     };
     let samples = CycleSamples::over(system, row, &state, length);
     let mut attractor = SystemAttractor::new(kind, row, vec![state], &samples);

@@ -17,7 +17,7 @@ use super::rotation::{Rotation, samples_per_orbit_period, samples_per_period};
 use super::settings::AttractorSettings;
 use super::settle::{ONE_STATE, Patience, SettleOutcome, Settled, block, settle};
 use crate::orbit::cycle::{FreeEnd, free_end};
-use crate::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding, near};
+use crate::orbit::{NoOrbit, Orbit, OrbitVerdict, Unsettled, from_sliding, near};
 use crate::simulation::{DEFAULT_TOLERANCE, Observer, Segment, Stalled, Start, simulate};
 
 /// Most periods of a closed orbit: the record holds five returns of an orbit of this length. A longer orbit is classified as a
@@ -133,6 +133,37 @@ impl Attractor {
     }
 }
 
+/// The motion on which a run ends, before it is observed.
+pub(super) struct Classified {
+    kind: AttractorKind,
+    base: bool,
+    /// A state on it at τ = 0.
+    pub(super) state: Start,
+    /// Periods over which it is observed.
+    periods: usize,
+}
+
+impl Classified {
+    /// Whether it is quiescent, as [`Attractor::quiet`].
+    pub(super) fn is_quiet(&self, settings: &AttractorSettings<'_>) -> bool {
+        match self.kind {
+            AttractorKind::Periodic { periods, .. } => settings.is_quiet(periods),
+            AttractorKind::Rest => true,
+            AttractorKind::Cycle | AttractorKind::QuasiPeriodic | AttractorKind::Unclassified => {
+                false
+            }
+        }
+    }
+
+    /// Its length in periods of the section, if it is periodic.
+    pub(super) fn periods(&self) -> Option<u32> {
+        match self.kind {
+            AttractorKind::Periodic { periods, .. } => Some(periods),
+            _ => None,
+        }
+    }
+}
+
 /// The attractor of a run that has settled; `None` for one that has not.
 ///
 /// # Errors
@@ -141,35 +172,42 @@ pub fn measure(
     settings: &AttractorSettings<'_>,
     settled: &Settled,
 ) -> Result<Option<Attractor>, Stalled> {
-    match (settled.outcome, &settings.base) {
-        (SettleOutcome::Unsettled(_), _) => Ok(None),
+    let Some(found) = classified(settings, settled)? else { return Ok(None) };
+    let observed = observed(settings, &found)?;
+    // Nothing else is taken from the section of a limit cycle without dither, whose moments are unrelated to the cycle.
+    let turns = settled.cycle.map(|period| Rotation::of_cycle(settings.section.period / period));
+    Ok(Some(Attractor { rotation: turns.or(observed.rotation), ..observed }))
+}
+
+/// The motion on which a run that has settled ends; `None` for one that has not. One that still moved when its periods were over cannot
+/// end on an unstable base response: it is on another motion, which is classified.
+pub(super) fn classified(
+    settings: &AttractorSettings<'_>,
+    settled: &Settled,
+) -> Result<Option<Classified>, Stalled> {
+    let found = |kind, state, periods| Classified { kind, base: false, state, periods };
+    Ok(match (settled.outcome, &settings.base) {
+        (SettleOutcome::Unsettled(Unsettled::Moving), Ok(base))
+            if base.verdict == OrbitVerdict::Unstable && !settings.is_autonomous() =>
+        {
+            Some(elsewhere(settings, settled.state, false)?)
+        }
+        (SettleOutcome::Unsettled(_), _) => None,
         (SettleOutcome::Base, Ok(base)) => {
             let state =
                 Start { time: 0.0, displacement: base.displacement, velocity: base.velocity };
             let kind = AttractorKind::Periodic { periods: 1, radius: base.radius };
-            Ok(Some(Attractor { base: true, ..observed(settings, kind, state, 1)? }))
+            Some(Classified { base: true, ..found(kind, state, 1) })
         }
-        (SettleOutcome::Base | SettleOutcome::Elsewhere, _) => match settled.cycle {
-            Some(period) => cycle(settings, settled.state, period).map(Some),
-            None if settled.is_at_rest(settings) => {
-                observed(settings, AttractorKind::Rest, settled.state, 1).map(Some)
+        (SettleOutcome::Base | SettleOutcome::Elsewhere, _) => Some(match settled.cycle {
+            Some(_) => {
+                let periods = RECORD.max(BLOCKS * block(settings));
+                found(AttractorKind::Cycle, settled.state, periods)
             }
-            None => elsewhere(settings, settled.state).map(Some),
-        },
-    }
-}
-
-/// The limit cycle without dither through a state, of a known period: nothing is taken from the section, whose moments are
-/// unrelated to the cycle.
-fn cycle(
-    settings: &AttractorSettings<'_>,
-    state: Start,
-    period: f64,
-) -> Result<Attractor, Stalled> {
-    let attractor =
-        observed(settings, AttractorKind::Cycle, state, RECORD.max(BLOCKS * block(settings)))?;
-    let rotation = Some(Rotation::of_cycle(settings.section.period / period));
-    Ok(Attractor { rotation, ..attractor })
+            None if settled.is_at_rest(settings) => found(AttractorKind::Rest, settled.state, 1),
+            None => elsewhere(settings, settled.state, true)?,
+        }),
+    })
 }
 
 /// The finding from the records of a settled run.
@@ -187,7 +225,7 @@ fn records(settings: &AttractorSettings<'_>, state: Start) -> Result<RecordFindi
     loop {
         let (observer, end) = record(settings, from)?;
         let section = observer.section();
-        if let Some((periods, orbit)) = orbit(settings, &section, end, MOST_PERIODS) {
+        if let Some((periods, orbit)) = orbit(settings, &section, end) {
             return Ok(RecordFinding::Orbit(periods, orbit));
         }
         let samples = samples_per_period(settings.section.period);
@@ -200,19 +238,25 @@ fn records(settings: &AttractorSettings<'_>, state: Start) -> Result<RecordFindi
     }
 }
 
-/// The attractor through a state on it, with dither.
-fn elsewhere(settings: &AttractorSettings<'_>, state: Start) -> Result<Attractor, Stalled> {
-    match records(settings, state)? {
+/// The motion through a state on it, with dither. A run that has not `settled` may still be converging to what looks like a curve.
+fn elsewhere(
+    settings: &AttractorSettings<'_>,
+    state: Start,
+    settled: bool,
+) -> Result<Classified, Stalled> {
+    let (kind, state, periods) = match records(settings, state)? {
         RecordFinding::Orbit(periods, orbit) => {
             let kind = AttractorKind::Periodic { periods, radius: orbit.radius() };
-            observed(settings, kind, orbit.start, periods as usize)
+            (kind, orbit.start, periods as usize)
         }
-        RecordFinding::Section { from, periods, steady } => {
-            let kind =
-                if steady { AttractorKind::QuasiPeriodic } else { AttractorKind::Unclassified };
-            observed(settings, kind, from, periods)
+        RecordFinding::Section { from, periods, steady: true } if settled => {
+            (AttractorKind::QuasiPeriodic, from, periods)
         }
-    }
+        RecordFinding::Section { from, periods, .. } => {
+            (AttractorKind::Unclassified, from, periods)
+        }
+    };
+    Ok(Classified { kind, base: false, state, periods })
 }
 
 /// A record, and the state after it.
@@ -228,33 +272,11 @@ fn record<'a>(
     Ok((observer, Start { time: 0.0, ..end.restart() }))
 }
 
-/// Whether the attractor of a settled run is quiescent, without slow motion of its own: the base response, rest, or a response of
-/// the dither's own period or of so few periods that all its spectral lines are above the band.
-///
-/// # Errors
-/// [`Stalled`].
-pub(super) fn is_quiescent(
-    settings: &AttractorSettings<'_>,
-    settled: &Settled,
-) -> Result<bool, Stalled> {
-    match settled.outcome {
-        SettleOutcome::Base => Ok(true),
-        SettleOutcome::Unsettled(_) => Ok(false),
-        SettleOutcome::Elsewhere if settings.is_autonomous() => Ok(settled.is_at_rest(settings)),
-        SettleOutcome::Elsewhere => {
-            let (observer, end) = record(settings, settled.state)?;
-            let most = settings.section.periods_above_the_band() as usize;
-            Ok(orbit(settings, &observer.section(), end, most).is_some())
-        }
-    }
-}
-
-/// The closed orbit of at most `most` periods to which the last states of a section return.
+/// The closed orbit to which the last states of a section return.
 fn orbit(
     settings: &AttractorSettings<'_>,
     section: &[(f64, f64)],
     end: Start,
-    most: usize,
 ) -> Option<(u32, Orbit)> {
     // A cycle without dither has its own period; its section need not return.
     if settings.is_autonomous() {
@@ -273,7 +295,7 @@ fn orbit(
             || (late <= RETURNS * size && late <= SHRINKS * returns(*n, 2 * n))
     };
     let own = (ITS_OWN * size).max(least);
-    (1..=most).filter(may_be_closed).take(MOST_SHOTS).find_map(|n| {
+    (1..=MOST_PERIODS).filter(may_be_closed).take(MOST_SHOTS).find_map(|n| {
         let periods = u32::try_from(n).ok()?;
         let orbit = near(settings.belt, end, periods).ok()?;
         let attracts =
@@ -282,10 +304,12 @@ fn orbit(
     })
 }
 
-/// The orbit with its shortest period, if the period that was found is a multiple of it.
+/// The orbit with its shortest period, if the period that was found is a multiple of it. An unstable orbit near one of its states is
+/// another one: that about which a small slow motion turns.
 fn shortest(settings: &AttractorSettings<'_>, periods: u32, orbit: Orbit) -> (u32, Orbit) {
     let same = |part: &Orbit| {
-        gap(state(part.start), state(orbit.start)) <= ONE_STATE * settings.belt.normal_load()
+        let off = gap(state(part.start), state(orbit.start));
+        off <= ONE_STATE * settings.belt.normal_load() && part.verdict() != OrbitVerdict::Unstable
     };
     let part = (1..periods)
         .filter(|part| periods.is_multiple_of(*part))
@@ -329,13 +353,9 @@ pub fn orbit_reached(belt: &Belt, start: Start) -> Result<Orbit, NoOrbit> {
     }
 }
 
-/// An attractor as observed by a run on it.
-fn observed(
-    settings: &AttractorSettings<'_>,
-    kind: AttractorKind,
-    state: Start,
-    periods: usize,
-) -> Result<Attractor, Stalled> {
+/// A motion as observed by a run on it.
+fn observed(settings: &AttractorSettings<'_>, found: &Classified) -> Result<Attractor, Stalled> {
+    let &Classified { kind, base, state, periods } = found;
     let period = settings.section.period;
     let length = periods as f64 * period;
     let is_orbit = matches!(kind, AttractorKind::Periodic { .. });
@@ -362,16 +382,8 @@ fn observed(
     };
     Ok(Attractor {
         kind,
-        base: false,
-        quiet: match kind {
-            AttractorKind::Periodic { periods, .. } => {
-                periods <= settings.section.periods_above_the_band()
-            }
-            AttractorKind::Rest => true,
-            AttractorKind::Cycle | AttractorKind::QuasiPeriodic | AttractorKind::Unclassified => {
-                false
-            }
-        },
+        base,
+        quiet: rests || found.is_quiet(settings),
         state,
         section,
         lowest: extremes.lowest,

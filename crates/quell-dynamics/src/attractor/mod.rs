@@ -22,8 +22,9 @@
 //! | `settle` | runs side by side, until each has settled |
 //! | `measure` | classification of the attractor of a settled run |
 //! | `basin` | which starts lead to the same attractor |
-//! | `reached` | whether a run from a start ends quiet |
 //! | `end_of_run` | the motion on which a run of any system ends |
+//! | `outcome` | whether it is quiet, without a record of it |
+//! | `switches` | values of a parameter at which that changes |
 //! | `system_attractor` | that motion |
 
 mod average;
@@ -32,11 +33,12 @@ mod basin;
 mod block_observer;
 mod end_of_run;
 mod measure;
-mod reached;
+mod outcome;
 mod rotation;
 mod section;
 mod settings;
 mod settle;
+mod switches;
 mod system_attractor;
 
 pub use crate::orbit::Unsettled;
@@ -46,10 +48,12 @@ pub use end_of_run::{
     EndOfRun, NoEnd, end_of_run, ends_of_runs, judged_mass, measured_of_one_mass, starts_of_mass,
 };
 pub use measure::{Attractor, AttractorKind, measure, orbit_reached};
-pub(crate) use reached::reached_at;
-pub use reached::{Reached, reached};
+pub use outcome::{RunOutcome, outcome_of_run};
 pub use rotation::{Ratio, Rotation};
 pub use section::StroboscopicSection;
 pub use settings::AttractorSettings;
 pub use settle::{Patience, SettleOutcome, Settled, settle, settle_many};
+pub use switches::{
+    RunSwitch, RunSwitches, SWITCH_CLOSENESS, StartOfRun, TriedValue, VariedRun, values_tried,
+};
 pub use system_attractor::{MotionKind, SystemAttractor};

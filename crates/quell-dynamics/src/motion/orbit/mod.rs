@@ -13,9 +13,8 @@
 //! | `ramp` | a run whose dither grows from zero |
 //! | `cycle_search` | a stable limit cycle from several starts |
 //! | `settled` | the periodic motion on which a run ends |
-//! | `end` | whether a run ends quiet, of every kind of system |
+//! | `sliding` | the verdict on steady sliding, and how a start on it is displaced |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
-//! | `switches` | values at which a run from a start changes to another motion |
 //! | `curves`, `threshold_curve` | their curves over a second parameter |
 //! | `sensitivity` | their derivatives with respect to other numbers |
 
@@ -23,7 +22,6 @@ mod approach;
 mod curves;
 mod cycle_samples;
 mod cycle_search;
-mod end;
 pub mod family;
 mod free;
 mod passages;
@@ -33,7 +31,7 @@ mod ramp;
 mod recurrence;
 mod sensitivity;
 mod settled;
-mod switches;
+mod sliding;
 mod threshold_curve;
 mod thresholds;
 mod transient;
@@ -45,7 +43,6 @@ pub use cycle_search::{
     BASE_STEPS, CycleSearch, NamedStart, TriedStart, base_state, kicked_by, search_cycle,
     squealing_state, usual_starts, without_cycle,
 };
-pub use end::{RunOutcome, displaced, sliding_verdict};
 pub use free::{NoCycle, free_cycle, limit_cycles};
 pub use passing::nearest_distance;
 pub use periodic::{
@@ -54,9 +51,7 @@ pub use periodic::{
 pub use ramp::ramped_motion;
 pub use sensitivity::motion_sensitivity;
 pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};
-pub use switches::{
-    RunSwitch, RunSwitches, SWITCH_CLOSENESS, StartOfRun, TriedValue, VariedRun, values_tried,
-};
+pub use sliding::{displaced, sliding_verdict};
 pub use threshold_curve::{
     CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
 };

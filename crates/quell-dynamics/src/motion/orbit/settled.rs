@@ -21,6 +21,7 @@ use super::family::{NoImage, shot, time_of};
 use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, orbit_at, scale_of};
 use super::recurrence::{NEAR, ON_IT, SAME, distance, returns};
 use super::transient;
+use crate::band::is_above_the_band;
 use crate::decay::decays_at;
 use crate::orbit::OrbitVerdict;
 
@@ -72,6 +73,13 @@ pub struct SettledMotion {
     pub multiple: u32,
     /// Common dither periods that the run took to reach its neighbourhood: it then is near the state of the orbit.
     pub periods: u32,
+}
+
+impl SettledMotion {
+    /// Whether it is quiet, without slow motion of its own: in step with the dither, or with all its spectral lines above the band.
+    pub fn is_quiet(&self, system: &System) -> bool {
+        self.multiple == 1 || is_above_the_band(system, self.orbit.period)
+    }
 }
 
 /// The periodic motion on which a run from a state at t = 0 ends: the one judge of it for every verb.

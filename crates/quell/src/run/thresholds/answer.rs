@@ -1,7 +1,8 @@
 //! The answer of `thresholds` as data.
 
+use quell_dynamics::attractor::RunOutcome;
 use quell_dynamics::motion::orbit::{
-    MotionSignatureChange, MotionThreshold, RunOutcome, family::MotionSignature,
+    MotionSignatureChange, MotionThreshold, family::MotionSignature,
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::BranchEnding;

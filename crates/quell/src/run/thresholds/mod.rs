@@ -9,9 +9,10 @@ mod sentence;
 
 use std::sync::Mutex;
 
+use quell_dynamics::attractor::{RunOutcome, RunSwitches, VariedRun, values_tried};
 use quell_dynamics::motion::orbit::{
-    BASE_STEPS, MotionThresholds, NoMotionOrbit, RunOutcome, RunSwitches, VariedRun, base_motion,
-    motion_thresholds, sliding_state, sliding_verdict, values_tried,
+    BASE_STEPS, MotionThresholds, NoMotionOrbit, base_motion, motion_thresholds, sliding_state,
+    sliding_verdict,
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::BranchEnding;

@@ -1,8 +1,7 @@
 //! The answer of `thresholds` in sentences: where the base response is stable, and where runs from each start end quiet.
 
-use quell_dynamics::motion::orbit::{
-    MotionThreshold, MotionThresholds, NoMotionOrbit, RunSwitch, RunSwitches,
-};
+use quell_dynamics::attractor::{RunSwitch, RunSwitches};
+use quell_dynamics::motion::orbit::{MotionThreshold, MotionThresholds, NoMotionOrbit};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
 use quell_model::units::Quantity;

@@ -6,8 +6,8 @@
 
 use quell_model::System;
 
-use super::end::{RunOutcome, end_of};
-use super::{NoMotionOrbit, motion_thresholds, ramped_motion};
+use super::outcome::{RunOutcome, outcome_of_run};
+use crate::motion::orbit::{NoMotionOrbit, motion_thresholds, ramped_motion};
 use crate::orbit::OrbitVerdict;
 use crate::orbit::threshold::ThresholdKind;
 use crate::simulation::within;
@@ -73,7 +73,7 @@ impl VariedRun<'_> {
                 Err(NoMotionOrbit::NoDither) => start,
                 ramped => ramped.map_err(|why| why.to_string())?,
             };
-            end_of(&system, &start)
+            outcome_of_run(&system, &start).map_err(|why| why.to_string())
         };
         within(self.most_steps, settle).unwrap_or_else(RunOutcome::Unknown)
     }
@@ -95,9 +95,8 @@ impl VariedRun<'_> {
         (high, above): (f64, &RunOutcome),
     ) -> Option<RunSwitch> {
         let (from, to, state, periods) = match (below, above) {
-            // Where the number of periods is not known, one is tried: a motion of several has no orbit there, and halving decides.
-            (RunOutcome::Quiet(state, periods), _) => (low, high, state, periods.unwrap_or(1)),
-            (_, RunOutcome::Quiet(state, periods)) => (high, low, state, periods.unwrap_or(1)),
+            (RunOutcome::Quiet(state, periods), _) => (low, high, state, *periods),
+            (_, RunOutcome::Quiet(state, periods)) => (high, low, state, *periods),
             _ => return None,
         };
         let found = motion_thresholds(&self.at, (from, to), STEPS, Some((state, periods))).ok()?;

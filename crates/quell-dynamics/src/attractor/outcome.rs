@@ -1,0 +1,72 @@
+//! Whether a run ends quiet: the judge of [`end_of_run`](super::end_of_run()), without a record of the motion.
+
+use quell_model::{OneMass, System};
+
+use super::end_of_run::{FreeMotion, NoEnd, free_motion, judged_mass, starts_of_mass};
+use super::measure::classified;
+use super::settings::AttractorSettings;
+use super::settle::{Patience, settle_many};
+use crate::motion::orbit::{NoMotionOrbit, settled};
+use crate::simulation::Stalled;
+
+/// How a run ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RunOutcome {
+    /// Without slow motion: in step with the dither, or periodic with all frequencies above the band of the vibration; without dither at
+    /// rest or in steady sliding. A state of it, and its number of common periods of the dithers.
+    Quiet(Vec<f64>, u32),
+    /// Vibrating.
+    Vibrating,
+    /// The run cannot be computed, or does not settle.
+    Unknown(String),
+}
+
+impl RunOutcome {
+    /// Whether the run ends quiet; `None` if that is unknown.
+    pub fn is_quiet(&self) -> Option<bool> {
+        match self {
+            Self::Quiet(..) => Some(true),
+            Self::Vibrating => Some(false),
+            Self::Unknown(_) => None,
+        }
+    }
+}
+
+/// How the run of a system from a state at t = 0 ends. Attractors coexist: unlike the verdict on the base response this depends on the
+/// start.
+///
+/// # Errors
+/// [`NoEnd`].
+pub fn outcome_of_run(system: &System, start: &[f64]) -> Result<RunOutcome, NoEnd> {
+    if let Some(mass) = judged_mass(system) {
+        return outcome_of_one_mass(&mass, start);
+    }
+    if !system.is_dithered() {
+        return Ok(match free_motion(&system.undithered(), start)? {
+            FreeMotion::Cycle(_) => RunOutcome::Vibrating,
+            FreeMotion::Rest(state) => RunOutcome::Quiet(state, 1),
+        });
+    }
+    match settled(system, start) {
+        Ok(found) if found.is_quiet(system) => {
+            Ok(RunOutcome::Quiet(found.orbit.state, found.multiple))
+        }
+        Ok(_) | Err(NoMotionOrbit::Unsettled { is_steady: true, .. }) => Ok(RunOutcome::Vibrating),
+        Err(why) => Err(NoEnd::NoOrbit(why)),
+    }
+}
+
+fn outcome_of_one_mass(mass: &OneMass, start: &[f64]) -> Result<RunOutcome, NoEnd> {
+    let settings = AttractorSettings::new(mass.belt()).map_err(NoEnd::NoSection)?;
+    let stopped = |why: Stalled| NoEnd::of_mass(mass, &why);
+    let settled = settle_many(&settings, &starts_of_mass(mass, &[start.to_vec()]), Patience::SWEEP);
+    let settled = settled.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED));
+    let settled = settled.map_err(stopped)?;
+    let found = classified(&settings, &settled).map_err(stopped)?;
+    let found = found.ok_or_else(|| NoEnd::unsettled(&settings, &settled))?;
+    if !found.is_quiet(&settings) {
+        return Ok(RunOutcome::Vibrating);
+    }
+    let state = mass.state(found.state.displacement, found.state.velocity).to_vec();
+    Ok(RunOutcome::Quiet(state, found.periods().unwrap_or(1)))
+}
