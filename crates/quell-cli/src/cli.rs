@@ -13,9 +13,9 @@ use serde_json::Value as Json;
 
 use crate::answer::Answer;
 use crate::verbs::{
-    actuator, atlas, attractor, basins, bifurcation, check, cite, compare, completions, design,
-    fit, friction, map, modes, new, orbit, probability, report, reproduce, resonances, response,
-    schema, simulate, sketch, stability, thresholds, waveforms,
+    actuator, attractor, basins, bifurcation, check, cite, compare, completions, design, fit,
+    friction, map, modes, new, orbit, probability, report, reproduce, resonances, response, schema,
+    simulate, sketch, stability, thresholds, waveforms,
 };
 use crate::{answer, help, interrupt, progress};
 
@@ -48,7 +48,6 @@ enum Verb {
     Orbit(orbit::Arguments),
     Attractor(attractor::Arguments),
     Thresholds(thresholds::Arguments),
-    Atlas(atlas::Arguments),
     Waveforms(waveforms::Arguments),
     Design(design::Arguments),
     Actuator(actuator::Arguments),
@@ -111,7 +110,6 @@ impl Verb {
             Self::Orbit(arguments) => orbit::run(arguments),
             Self::Attractor(arguments) => attractor::run(arguments),
             Self::Thresholds(arguments) => thresholds::run(arguments),
-            Self::Atlas(arguments) => atlas::run(arguments),
             Self::Waveforms(arguments) => waveforms::run(arguments),
             Self::Design(arguments) => design::run(arguments),
             Self::Actuator(arguments) => actuator::run(arguments),

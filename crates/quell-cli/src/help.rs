@@ -48,17 +48,9 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
             (
                 "thresholds",
                 &[
-                    "quell thresholds quench.toml --parameter dither.amplitude --from 0.3 --to 0.7 --from-rest",
+                    "quell thresholds quench.toml --from-rest",
                     "quell thresholds drive.toml --parameter belt.belt_velocity_m_per_s --from 0.002 --to 0.04",
                     "quell thresholds two-mass-drive.toml --parameter dither.amplitude --from 3 --to 9 --along contact.guide.belt_velocity --between 0.04:0.06",
-                ],
-            ),
-            (
-                "atlas",
-                &[
-                    "quell atlas quench.toml --exact",
-                    "quell atlas --plot atlas.svg",
-                    "quell atlas --save atlas.csv",
                 ],
             ),
             (

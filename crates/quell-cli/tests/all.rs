@@ -4,7 +4,6 @@
 
 mod actuator;
 mod actuator_range;
-mod atlas;
 mod attractors;
 mod command_line;
 mod disc;

@@ -159,6 +159,43 @@ fn cite_prints_the_entries_that_a_study_uses() {
     assert!(keys("quench.toml").contains("jorba2005") && !keys("disc.toml").contains("jorba2005"));
 }
 
+/// The amplitude of a dither needs no range: it is searched up to the limit of maps, in the unit of its key.
+#[test]
+fn thresholds_of_an_amplitude_need_no_range() {
+    let place = place("doors-no-range");
+    let numbers = |words: &[&str]| {
+        let found = place.good(&[&["thresholds"], words].concat());
+        let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+        (number(&found["from"]), number(&found["to"]), number(&found["local"][0]["value"]))
+    };
+    let (from, to, value) = numbers(&["quench.toml"]);
+    assert!(from == 0.0 && (0.98..1.0).contains(&to), "{to}");
+    assert!((value - 0.496_561_891_28).abs() < 1e-10, "{value}");
+    let own = numbers(&["brake-si.toml"]);
+    let newtons = numbers(&["brake-si.toml", "--parameter", "dither.amplitude_n"]);
+    assert!((own.1 / newtons.1 - 1.0).abs() < 1e-12 && own.2 == newtons.2, "{own:?} {newtons:?}");
+    place.write("free.toml", FREE);
+    for (words, key) in [
+        (&["quench.toml", "--parameter", "belt.belt_velocity"][..], "--from"),
+        (&["free.toml"], "--parameter"),
+    ] {
+        let errors = place.refused(&[&["thresholds"], words].concat());
+        assert_eq!(errors[0]["key"], key, "{errors:?}");
+        assert_eq!(errors[0]["fault"], "missing");
+    }
+}
+
+/// A belt without dither.
+const FREE: &str = r#"
+[belt]
+damping_ratio = 0.005
+normal_load = 1.0
+belt_velocity = 0.05
+[friction]
+law = "coulomb"
+coefficient = 0.3
+"#;
+
 /// A belt beyond its critical velocity.
 const DECREASING: [&str; 2] = ["friction.law=decreasing", "belt.belt_velocity=1"];
 

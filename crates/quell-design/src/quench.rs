@@ -131,7 +131,7 @@ pub fn quench(system: &System, input: usize) -> Result<Quench, NoQuench> {
         return Err(NoQuench::NoDither);
     }
     sliding_state(system).map_err(|_| NoQuench::NoSteadySliding)?;
-    let limit = limit(system, input)?;
+    let limit = amplitude_limit(system, input)?;
     let at = |amplitude: f64| Ok(system.with_amplitude(input, amplitude));
     let branch = amplitude_branch(&at, (0.0, limit), STEPS);
     let branch = branch.map_err(|why| no_branch(&why))?;
@@ -158,8 +158,11 @@ fn no_branch(why: &NoMotionOrbit) -> NoQuench {
     }
 }
 
-/// The largest amplitude of a dither that is followed.
-fn limit(system: &System, input: usize) -> Result<f64, NoQuench> {
+/// The largest amplitude of a dither that is followed: beyond it the verdict hardly changes.
+///
+/// # Errors
+/// [`NoQuench`].
+pub fn amplitude_limit(system: &System, input: usize) -> Result<f64, NoQuench> {
     if let InputTarget::NormalLoad { contact, .. } = system.inputs[input].target
         && system.contacts[contact].normal.is_none()
     {

@@ -40,8 +40,6 @@ mod _quell {
     #[pymodule_export]
     use crate::study::NativeStudy;
     #[pymodule_export]
-    use crate::verbs::atlas::atlas_tables;
-    #[pymodule_export]
     use crate::verbs::fit::{fit_decay, fit_laws};
     #[pymodule_export]
     use crate::verbs::new::new;

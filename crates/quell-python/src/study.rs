@@ -22,8 +22,8 @@ use crate::verbs::compare::RecordTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
-    actuator, atlas, attractor, basins, bifurcation, check, cite, compare, design, fit, friction,
-    map, modes, orbit, probability, report, resonances, response, simulate, sketch, stability,
+    actuator, attractor, basins, bifurcation, check, cite, compare, design, fit, friction, map,
+    modes, orbit, probability, report, resonances, response, simulate, sketch, stability,
     thresholds, waveforms,
 };
 use crate::{call, convert, errors};
@@ -373,7 +373,7 @@ impl NativeStudy {
         &self,
         py: Python<'_>,
         parameter: String,
-        range: Pair,
+        range: Option<Pair>,
         runs: (Vec<String>, Option<GivenState>, String),
         near: Option<(GivenState, u32)>,
     ) -> PyResult<NativeAnswer> {
@@ -381,7 +381,7 @@ impl NativeStudy {
         call::run(py, move || {
             let (names, start, ramp) = &runs;
             let near = near.as_ref().map(|(state, periods)| (state, *periods));
-            thresholds::run(&study, parameter, &range, (names, start.as_ref(), ramp), near)
+            thresholds::run(&study, parameter, range.as_ref(), (names, start.as_ref(), ramp), near)
         })
     }
 
@@ -390,12 +390,14 @@ impl NativeStudy {
         &self,
         py: Python<'_>,
         parameter: String,
-        range: Pair,
+        range: Option<Pair>,
         along: String,
         between: Pair,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || thresholds::run_along(&study, parameter, &range, along, &between))
+        call::run(py, move || {
+            thresholds::run_along(&study, parameter, range.as_ref(), along, &between)
+        })
     }
 
     /// `ways`: whether the sweep up and the sweep down are requested.
@@ -439,12 +441,6 @@ impl NativeStudy {
             (None, None) => None,
         };
         basins::run(py, self.study(), plane, (layout, over), threads, progress)
-    }
-
-    /// `exact`: whether the thresholds are also computed by continuation.
-    fn atlas(&self, py: Python<'_>, exact: bool) -> PyResult<NativeAnswer> {
-        let study = self.study();
-        call::run(py, move || atlas::run(&study, exact))
     }
 
     fn waveforms(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

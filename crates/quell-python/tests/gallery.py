@@ -231,9 +231,6 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "comparison": lambda: quell.Study.from_toml(STUDIES / "measured-belt.toml").compare(
         STUDIES / "synthetic-squeal.csv", after=STUDIES / "synthetic-quenched.csv"),
     "comparison of one record": lambda: quell.Study.from_toml(STUDIES / "measured-belt.toml").compare(STUDIES / "synthetic-quenched.csv"),
-    "atlas": lambda: belt().atlas(exact=True),
-    "atlas in SI": lambda: belt_in_si().atlas(),
-    "tables of the atlas": lambda: quell.atlas(),
     "waveforms": lambda: belt().waveforms(),
     "waveforms of a system": lambda: study("drive in SI").waveforms(),
     "waveforms in SI": lambda: belt_in_si().waveforms(),

@@ -260,7 +260,7 @@ def test_answers_are_those_of_the_verbs(name: str) -> None:
 def test_questions_of_a_study_are_those_of_its_tables() -> None:
     study = of("actuator.toml")
     assert _questions.asked(study) == ["design", "actuator"]
-    assert _questions.asked(of("probability.toml")) == ["probability", "atlas"]
+    assert _questions.asked(of("probability.toml")) == ["probability"]
     assert _questions.asked(of("pin-on-disc.toml")) == []
     found = _questions.actuator(study)
     assert found["sentence"] == study.actuator().facts["sentence"] and found["picture"].lstrip().startswith(("<svg", "<?xml"))
@@ -762,10 +762,3 @@ def test_measured_files_are_set_against_a_study() -> None:
     assert "decreasing" in laws["picture"] and "[friction]" in laws["picture"] and laws["warnings"]
     with pytest.raises(quell.QuellError, match="slip_velocity"):
         _measured.fit(study, b"a,b\n1,2\n")
-
-
-def test_the_atlas_is_asked_of_belts_that_it_has() -> None:
-    study = of("how-much-dither.toml")
-    assert _questions.asked(study)[-1:] == ["atlas"]
-    assert _questions.atlas(study)["sentence"] == study.atlas().facts["sentence"]
-    assert "atlas" not in _questions.asked(of("two-mass-drive.toml"))

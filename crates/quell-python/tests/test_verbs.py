@@ -96,7 +96,6 @@ def test_the_options_are_the_same(verb: str) -> None:
     python_only = {
         "map": {"axes", "store", "progress", "client"},
         "simulate": {"samples", "sound", "t_eval"},
-        "atlas": {"study", "progress"},
         "bifurcation": {"progress"},
         "basins": {"progress"},
         "probability": {"progress"},
@@ -120,8 +119,6 @@ CASES: list[tuple[str, str, list[str], Any]] = [
     ("friction", BELT, ["--at", "0.05,0,0.1"], lambda study: study.friction([0.05, 0.0, 0.1])),
     ("friction", SI, [], lambda study: study.friction()),
     ("friction", BELT, ["--describing", "0.2"], lambda study: study.friction(describing=0.2)),
-    ("atlas", BELT, ["--exact"], lambda study: study.atlas(exact=True)),
-    ("atlas", str(STUDIES / "measured-belt.toml"), [], lambda study: study.atlas()),
     ("waveforms", BELT, [], lambda study: study.waveforms()),
     ("design", str(STUDIES / "design.toml"), [], lambda study: study.design()),
     ("actuator", str(STUDIES / "actuator.toml"), [], lambda study: study.actuator()),

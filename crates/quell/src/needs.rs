@@ -119,7 +119,6 @@ pub const VERBS: &[StudyVerb] = &[
     verb("orbit", Needs::MOTIONS),
     verb("attractor", Needs::MOTIONS),
     verb("thresholds", Needs::MOTIONS),
-    verb("atlas", Needs { of: StudyEquations::Belt, ..Needs::MOTIONS }),
     verb("waveforms", Needs::MOTIONS),
     verb("design", Needs::STEADY),
     verb("actuator", Needs::MOTIONS),

@@ -24,9 +24,8 @@ use crate::run::system::{design, exact, has_equations, measured, modes, reach, t
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
-    actuator, atlas, belt_system, bifurcation, describing, found_attractor, friction,
-    noise_response, orbit, probability, ramp, response, simulate, stability, thresholds, waveforms,
-    window,
+    actuator, belt_system, bifurcation, describing, found_attractor, friction, noise_response,
+    orbit, probability, ramp, response, simulate, stability, thresholds, waveforms, window,
 };
 use crate::study::{DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy, not_periodic};
 use crate::sweep::Running;
@@ -327,16 +326,6 @@ impl Verbs {
     pub fn waveforms(&self) -> Reply {
         let study = self.system("waveforms")?;
         answer(&study, waveforms::run(&study))
-    }
-
-    /// The thresholds by the atlas; with `exact` also those by continuation.
-    ///
-    /// # Errors
-    /// As [`atlas::run`].
-    pub fn atlas(&self, exact: bool) -> Reply {
-        self.has("atlas")?;
-        let belt = self.study.belt().map_err(|complaint| *complaint)?;
-        answer(&belt, atlas::run(&belt, exact))
     }
 
     /// The least dither that is quiet over a box of operating points.

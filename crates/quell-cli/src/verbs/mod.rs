@@ -1,7 +1,6 @@
 //! One verb, one file, one `run`.
 
 pub(crate) mod actuator;
-pub(crate) mod atlas;
 pub(crate) mod attractor;
 pub(crate) mod basins;
 pub(crate) mod bifurcation;

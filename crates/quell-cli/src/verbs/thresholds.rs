@@ -4,12 +4,12 @@ use clap::{Args, ValueHint};
 use quell::Failure;
 use quell::run::protocol::{Protocol, read_state_of};
 use quell::run::system::start;
-use quell::run::thresholds::ThresholdsRequest;
 use quell::run::thresholds::curves::CurvesRequest;
+use quell::run::thresholds::{AMPLITUDE, ThresholdsRequest, window_of_amplitude};
 use quell::study::SystemStudy;
 use quell::verbs::{system_of, verbs};
 
-use super::numbers::{VariedArguments, window};
+use super::numbers::{number, window};
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
@@ -18,8 +18,16 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    #[command(flatten)]
-    varied: VariedArguments,
+    /// Path of the parameter, such as belt.belt_velocity
+    #[arg(long, value_name = "PATH", default_value = AMPLITUDE, value_hint = ValueHint::Other)]
+    parameter: String,
+    /// Smallest value, in the unit of the key or with a unit, such as 5kN [default: of an amplitude, 0]
+    #[arg(long, value_name = "A", requires = "to", allow_hyphen_values = true, value_hint = ValueHint::Other)]
+    from: Option<String>,
+    /// Largest value, in the unit of the key or with a unit, such as 5kN [default: of an amplitude, twice the larger of the last change
+    /// by averaging and of that at which the contact reverses within every cycle]
+    #[arg(long, value_name = "B", requires = "from", allow_hyphen_values = true, value_hint = ValueHint::Other)]
+    to: Option<String>,
     /// Also finds the thresholds of runs from rest
     #[arg(long)]
     from_rest: bool,
@@ -78,8 +86,15 @@ impl Arguments {
         let asked = flags.into_iter().filter(|(asked, _)| *asked).map(|(_, protocol)| protocol);
         let protocols = asked.chain(start?.map(Protocol::From)).collect();
         let near = near?.map(|state| (state, self.periods));
-        let parameter = self.varied.parameter.clone();
-        Some(ThresholdsRequest { parameter, window: window?, near, protocols, ramp: ramp? })
+        let window = match window {
+            Some(window) => window,
+            None if self.from.is_none() => {
+                complaints.take(window_of_amplitude(system, &self.parameter))?
+            }
+            None => return None,
+        };
+        let parameter = self.parameter.clone();
+        Some(ThresholdsRequest { parameter, window, near, protocols, ramp: ramp? })
     }
 }
 
@@ -88,7 +103,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    let range = arguments.varied.ends(study.as_ref(), &mut complaints);
+    let mut end = |option, text: &Option<String>| {
+        let read = |text: &str| number(option, text, &arguments.parameter, study.as_ref());
+        complaints.take(text.as_deref().map(read).transpose()).flatten()
+    };
+    let range = end("--from", &arguments.from).zip(end("--to", &arguments.to));
     let along = arguments.along.as_deref().unwrap_or_default();
     let between =
         arguments.between.as_deref().map(|text| window("--between", text, along, study.as_ref()));

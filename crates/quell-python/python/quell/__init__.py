@@ -87,7 +87,6 @@ __all__ = [
     "SystemInitial",
     "SystemMode",
     "__version__",
-    "atlas",
     "explore",
     "from_abaqus",
     "from_nastran",
@@ -298,51 +297,6 @@ def fit_decay(
     texts = record_of(arguments, column, quantity, gain, window)
     arguments.done()
     return results.Decay._of(None, _quell.fit_decay(str(place), laws, fixed, texts))
-
-
-@keywords
-def atlas(
-    study: Study | None = None,
-    *,
-    exact: bool = False,
-    compute: bool = False,
-    threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> results.Atlas | results.AtlasTables:
-    """The atlas: exact thresholds of belts under tangential dither, in dimensionless groups.
-
-    Parameters
-    ----------
-    study :
-        A belt, as in :meth:`Study.atlas` [default: the tables themselves].
-    exact :
-        Whether to compute the thresholds of the study by continuation too.
-    compute :
-        Whether to compute the tables again, and report the largest difference; it takes minutes.
-    threads :
-        Number of threads of ``compute`` [default: all cores].
-    progress :
-        Called from time to time with (finished values, all values) of ``compute``.
-
-    Returns
-    -------
-    quell.results.Atlas or quell.results.AtlasTables
-        Of a study its thresholds; without one the errors of the tables, and the thresholds at round numbers of the groups.
-    """
-    arguments = Arguments()
-    workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
-    if study is not None and not isinstance(study, Study):
-        arguments.wrong.append(complaint("study", repr(study), "a study, such as quell.Belt or quell.Study.from_toml"))
-    if study is None and exact:
-        arguments.wrong.append(complaint("exact", True, "left out without a study", "conflict"))
-    if study is not None and compute:
-        arguments.wrong.append(complaint("compute", True, "left out with a study", "conflict"))
-    if threads is not None and not compute:
-        arguments.wrong.append(complaint("threads", threads, "left out without compute", "conflict"))
-    arguments.done()
-    if study is not None:
-        return study.atlas(exact=exact)
-    return results.AtlasTables._of(None, _quell.atlas_tables(bool(compute), workers, progress))
 
 
 def quantities() -> dict[str, dict[str, str]]:

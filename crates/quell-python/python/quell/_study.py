@@ -410,9 +410,9 @@ class Study(CheckedStudy):
     @overload
     def thresholds(
         self,
-        parameter: str,
-        from_: Number,
-        to: Number,
+        parameter: str = "dither.amplitude",
+        from_: Number | None = None,
+        to: Number | None = None,
         *,
         from_rest: bool = False,
         from_sliding: bool = False,
@@ -425,15 +425,21 @@ class Study(CheckedStudy):
 
     @overload
     def thresholds(
-        self, parameter: str, from_: Number, to: Number, *, along: str, between: State
+        self,
+        parameter: str = "dither.amplitude",
+        from_: Number | None = None,
+        to: Number | None = None,
+        *,
+        along: str,
+        between: State,
     ) -> results.ThresholdCurves: ...
 
     @keywords
     def thresholds(
         self,
-        parameter: str,
-        from_: Number,
-        to: Number,
+        parameter: str = "dither.amplitude",
+        from_: Number | None = None,
+        to: Number | None = None,
         *,
         from_rest: bool = False,
         from_sliding: bool = False,
@@ -456,7 +462,8 @@ class Study(CheckedStudy):
             such as ``dither.amplitude_n``.
         from_, to :
             The range to search, in the unit of that key or as texts with units such as ``"5kN"`` (``--from``
-            and ``--to`` on the command line).
+            and ``--to`` on the command line) [default: of the amplitude of a dither from 0 to twice the larger of the last
+            change by averaging and of the amplitude at which the contact reverses within every cycle].
         from_rest, from_sliding, from_squeal, start :
             Also find thresholds of runs from rest, from steady sliding, from full squeal, or from a state: (x, x′) of one mass, or
             numbers such as ``{"x": 0.1, "velocity.x": -2}`` that replace those of the study's start.
@@ -470,7 +477,10 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
-        ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
+        if (from_ is None) != (to is None):
+            arguments.wrong.append(complaint("from_", from_, "given together with to", "conflict"))
+        given = from_ is not None and to is not None
+        ends = (arguments.quantity("from_", from_), arguments.quantity("to", to)) if given else None
         count = arguments.whole("periods", periods, 1, 1000)
         begin, motion = arguments.state("start", start), arguments.state("near", near)
         time = arguments.quantity("ramp", ramp, "a time ≥ 0")
@@ -725,30 +735,6 @@ class Study(CheckedStudy):
         size = None if grid is None else (sides[0], sides[1])
         native = self._native.basins((text, window), (size, drawn), along, workers, progress)
         return results.Basins._of(self, native)
-
-    @keywords
-    def atlas(self, *, exact: bool = False) -> results.Atlas:
-        """The exact thresholds of a belt under one tangential dither, from the tables of the atlas in dimensionless groups.
-
-        The atlas has the laws stribeck, decreasing and stribeck-exponential (exponent 2) under sine, triangle and square dither.
-        :func:`quell.atlas` has the tables themselves.
-
-        Parameters
-        ----------
-        exact :
-            Whether to compute the thresholds by continuation too, and report the difference.
-
-        Returns
-        -------
-        quell.results.Atlas
-            The groups, the amplitudes at which the verdict changes with their errors, and the thresholds over the belt's speed (n,).
-
-        Raises
-        ------
-        StudyError
-            If the study is outside the atlas, with every key that places it there.
-        """
-        return results.Atlas._of(self, self._native.atlas(bool(exact)))
 
     @keywords
     def waveforms(self) -> results.Waveforms:

@@ -1,7 +1,6 @@
 //! The verbs: arguments in, answer out. There is one file per verb, as in the command line.
 
 pub(crate) mod actuator;
-pub(crate) mod atlas;
 pub(crate) mod attractor;
 pub(crate) mod basins;
 pub(crate) mod bifurcation;

@@ -2,25 +2,33 @@
 
 use quell::run::protocol::Protocol;
 use quell::run::system::start;
-use quell::run::thresholds::ThresholdsRequest;
 use quell::run::thresholds::curves::CurvesRequest;
+use quell::run::thresholds::{ThresholdsRequest, window_of_amplitude};
 use quell::verbs::{system_of, verbs};
 use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;
 use crate::arguments::{GivenState, Pair, ends};
 
-/// Runs the verb. `range`: the values of the parameter that are searched; `runs`: names of the fields of starts, a further start, and the
+/// The window of a parameter: as given, or that of an amplitude.
+fn window(study: &Study, parameter: &str, range: Option<&Pair>) -> Result<(f64, f64), Failure> {
+    match range {
+        Some(range) => ends(study, parameter, range),
+        None => window_of_amplitude(&system_of(study, "thresholds")?, parameter),
+    }
+}
+
+/// Runs the verb. `range`: the values of the parameter that are searched [default: those of an amplitude]; `runs`: names of the fields of starts, a further start, and the
 /// time of the ramp; `near`: a state of the motion to follow, and its number of periods.
 pub(crate) fn run(
     study: &Study,
     parameter: String,
-    range: &Pair,
+    range: Option<&Pair>,
     (names, start, ramp): (&[String], Option<&GivenState>, &str),
     near: Option<(&GivenState, u32)>,
 ) -> Result<NativeAnswer, Failure> {
     let system = system_of(study, "thresholds")?;
-    let window = ends(study, &parameter, range)?;
+    let window = window(study, &parameter, range)?;
     let known = [Protocol::Rest, Protocol::Sliding, Protocol::Squeal];
     let asked = known.into_iter().filter(|known| names.iter().any(|name| name == known.name()));
     let mut protocols: Vec<Protocol> = asked.collect();
@@ -40,12 +48,12 @@ pub(crate) fn run(
 pub(crate) fn run_along(
     study: &Study,
     parameter: String,
-    range: &Pair,
+    range: Option<&Pair>,
     along: String,
     between: &Pair,
 ) -> Result<NativeAnswer, Failure> {
     let verbs = verbs(study);
-    let window = ends(study, &parameter, range)?;
+    let window = window(study, &parameter, range)?;
     let value = |text: &str| quantity::value_of(Some(study), text, &along, "--between");
     let between = (value(&between.0)?, value(&between.1)?);
     let request = CurvesRequest { parameter, window, along, between };

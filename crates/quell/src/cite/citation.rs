@@ -11,8 +11,6 @@ pub enum Task {
     Stability,
     /// Thresholds of the stability of a system.
     Thresholds,
-    /// Thresholds of a belt from the tables of the atlas.
-    Atlas,
     /// A trajectory with its events.
     Simulate,
     /// The steady response.
@@ -32,7 +30,6 @@ impl Task {
     pub const ALL: &'static [Self] = &[
         Self::Friction,
         Self::Stability,
-        Self::Atlas,
         Self::Simulate,
         Self::Response,
         Self::Bifurcation,
@@ -45,7 +42,6 @@ impl Task {
             Self::Friction => "friction",
             Self::Stability => "stability",
             Self::Thresholds => "thresholds",
-            Self::Atlas => "atlas",
             Self::Simulate => "simulate",
             Self::Response => "response",
             Self::Bifurcation => "bifurcation",

@@ -3,7 +3,6 @@
 //! Equation numbers are those of Michaux (2005). Each correction was found by comparing the printed formula with quadrature of
 //! its definition; the numbers are in `reference/`.
 
-use quell_design::atlas::AtlasPoint;
 use quell_model::{Belt, Direction, LawKind};
 use serde_json::{Value as Json, json};
 
@@ -25,11 +24,11 @@ pub use citation::{Citation, Task};
 pub use correction::{Bears, Correction, DiscKind, Proof};
 pub use corrections::CORRECTIONS;
 pub use references::{
-    ARMSTRONG_HELOUVRY_1994, BERRUT_TREFETHEN_2004, CANUDAS_DE_WIT_1995, CHAN_1994,
-    CUNEFARE_GRAF_2002, DAS_SAIKI_SANDER_YORKE_2017, FILIPPOV_1988, GELB_VANDER_VELDE_1968,
-    HAIRER_NORSETT_WANNER_1993, HARRIS_1978, HOFFMANN_2002, IWAN_STAHL_1973, JORBA_ZOU_2005,
-    MENCK_2013, MICHAUX_2005, NAYFEH_MOOK_1979, SOURCES, STEELE_2014, Source, TAKAHASHI_IMADA_1984,
-    THOMSEN_1999, THOMSEN_FIDLIN_2003, VOGEL_SKINNER_1965, WILSON_1927,
+    ARMSTRONG_HELOUVRY_1994, CANUDAS_DE_WIT_1995, CHAN_1994, CUNEFARE_GRAF_2002,
+    DAS_SAIKI_SANDER_YORKE_2017, FILIPPOV_1988, GELB_VANDER_VELDE_1968, HAIRER_NORSETT_WANNER_1993,
+    HARRIS_1978, HOFFMANN_2002, IWAN_STAHL_1973, JORBA_ZOU_2005, MENCK_2013, MICHAUX_2005,
+    NAYFEH_MOOK_1979, SOURCES, STEELE_2014, Source, TAKAHASHI_IMADA_1984, THOMSEN_1999,
+    THOMSEN_FIDLIN_2003, VOGEL_SKINNER_1965, WILSON_1927,
 };
 
 /// Sources of a study's computations.
@@ -76,8 +75,7 @@ fn citations(study: &BeltStudy) -> Vec<Citation> {
     let belt = study.belt();
     let mut citations = Vec::new();
     let mut cite = |task, source, used| citations.push(Citation { source, task, used });
-    let in_atlas = AtlasPoint::of_belt(belt).is_ok();
-    for &task in Task::ALL.iter().filter(|task| **task != Task::Atlas || in_atlas) {
+    for &task in Task::ALL {
         cite(task, MICHAUX_2005, model(belt));
         if belt.friction().kind() == LawKind::StribeckExponential {
             let used = "exponential Stribeck friction with a viscous part";
@@ -103,9 +101,6 @@ fn citations(study: &BeltStudy) -> Vec<Citation> {
                 }
             }
             Task::Bifurcation | Task::Basins => attractors(task, &mut cite),
-            Task::Atlas => {
-                cite(task, BERRUT_TREFETHEN_2004, "interpolation between the values of the tables");
-            }
             Task::Thresholds | Task::Modes | Task::Resonances => {}
         }
     }

@@ -59,12 +59,6 @@ pub const JORBA_ZOU_2005: Source = Source {
     reference: "À. Jorba, M. Zou: A software package for the numerical integration of ODEs by \
                 means of high-order Taylor methods. Experimental Mathematics 14(1), 99–117, 2005",
 };
-/// Polynomials through values at Chebyshev nodes.
-pub const BERRUT_TREFETHEN_2004: Source = Source {
-    key: "berrut2004",
-    reference: "J.-P. Berrut, L. N. Trefethen: Barycentric Lagrange interpolation. SIAM Review 46(3), \
-                501–517, 2004",
-};
 /// Solutions of differential equations with set-valued right-hand sides.
 pub const FILIPPOV_1988: Source = Source {
     key: "filippov1988",
@@ -155,7 +149,6 @@ pub const SOURCES: &[Source] = &[
     CANUDAS_DE_WIT_1995,
     GELB_VANDER_VELDE_1968,
     JORBA_ZOU_2005,
-    BERRUT_TREFETHEN_2004,
     FILIPPOV_1988,
     HARRIS_1978,
     DAS_SAIKI_SANDER_YORKE_2017,

@@ -12,7 +12,6 @@ use crate::plot::Figure;
 use crate::study::{StudyKind, StudyOf};
 
 mod actuator;
-mod atlas;
 mod attractor;
 mod basins;
 mod bifurcation;

@@ -4,7 +4,6 @@
 //! equations. The caption states the law, the belt, the dither and the start.
 
 mod actuator;
-mod atlas;
 mod basins;
 pub mod bifurcation;
 mod caption;
@@ -37,7 +36,6 @@ mod waveforms;
 mod window;
 
 pub use actuator::actuator;
-pub use atlas::{atlas, atlas_tables};
 pub use basins::basins;
 pub use compare::compare;
 pub use design::{design, design_of_disc};

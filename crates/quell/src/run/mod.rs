@@ -4,7 +4,6 @@
 //! SI ([`crate::fields`]).
 
 pub mod actuator;
-pub mod atlas;
 pub mod basins;
 pub(crate) mod belt_system;
 pub mod bifurcation;

@@ -86,7 +86,6 @@ class Page:
             "design": QuestionPane("Least dither", "design", "exact"),
             "actuator": QuestionPane("What the actuator can give", "actuator", "averaged"),
             "probability": QuestionPane("How probable the vibration is", "probability", "averaged"),
-            "atlas": QuestionPane("Thresholds among those of all belts", "atlas", "exact"),
         }
         self.measured = {
             "compare": MeasuredPane("Compared with a measurement", "compare", ("record or spectrum", "the same under dither (optional)")),

@@ -1,4 +1,4 @@
-"""The questions that a study asks: the least dither, what its actuator can give, how probable the vibration is, the atlas."""
+"""The questions that a study asks: the least dither, what its actuator can give, how probable the vibration is."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from .._errors import QuellError
 from .._study import Study
 from ..results import Result
 from ._reading import Answer
@@ -19,17 +18,7 @@ def asked(study: Study) -> list[str]:
     """The questions of a study, in the order in which they are shown."""
     tables = study._native.document()
     dithered = "dither" in tables
-    found = [verb for verb, table in TABLES.items() if table in tables and (dithered or verb == "probability")]
-    return [*found, "atlas"] if study._native.kind == "belt" and dithered and is_in_atlas(study) else found
-
-
-def is_in_atlas(study: Study) -> bool:
-    """Whether the atlas has the thresholds of a belt."""
-    try:
-        study.atlas()
-    except QuellError:
-        return False
-    return True
+    return [verb for verb, table in TABLES.items() if table in tables and (dithered or verb == "probability")]
 
 
 def shown(result: Result) -> Answer:
@@ -49,11 +38,6 @@ def design(study: Study) -> Answer:
 def actuator(study: Study) -> Answer:
     """What the actuator can give, against what quenching needs."""
     return shown(study.actuator())
-
-
-def atlas(study: Study) -> Answer:
-    """The thresholds of a belt among those of all belts."""
-    return shown(study.atlas())
 
 
 def probability(study: Study, progress: Any = None) -> Answer:

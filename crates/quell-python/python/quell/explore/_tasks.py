@@ -7,7 +7,7 @@ from collections.abc import Callable
 from ._answers import averaged, trajectory
 from ._maps import basins, curves, eigenvalues, plane
 from ._measured import compare, fit
-from ._questions import actuator, atlas, design, probability
+from ._questions import actuator, design, probability
 from ._reading import Answer
 from ._sound import sound
 from ._spectra import response
@@ -24,7 +24,6 @@ TASKS: dict[str, Callable[..., Answer]] = {
     "design": design,
     "actuator": actuator,
     "probability": probability,
-    "atlas": atlas,
     "compare": compare,
     "fit": fit,
 }

@@ -16,14 +16,12 @@ from .._dataset import Arrays, Variable
 from .._result import Result
 from ._measured import Comparison, Decay, LawFit, RecordFit
 from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
-from ._steady import Actuator, Atlas, AtlasTables, Check, Citations, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
+from ._steady import Actuator, Check, Citations, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
 
 __all__ = [
     "Actuator",
     "Arrays",
-    "Atlas",
-    "AtlasTables",
     "Attractor",
     "Basins",
     "Bifurcation",

@@ -63,61 +63,6 @@ class ActuatorColumns(Frozen):
     sufficient_to: npt.NDArray[np.float64]
 
 
-class AtlasColumns(Frozen):
-    """Of :class:`quell.results.Atlas`."""
-
-    belt_velocity: npt.NDArray[np.float64]
-    change_amplitude: npt.NDArray[np.float64]
-    change_becomes_quiet: npt.NDArray[Any]
-    change_exact_amplitude: npt.NDArray[np.float64]
-    change_kind: npt.NDArray[np.str_]
-    change_relative_amplitude: npt.NDArray[np.float64]
-    change_relative_amplitude_ratio: npt.NDArray[np.float64]
-    change_relative_difference: npt.NDArray[np.float64]
-    change_relative_error: npt.NDArray[np.float64]
-    change_sensitive: npt.NDArray[Any]
-    grazing_amplitude: float
-    grazing_curve: npt.NDArray[np.float64]
-    grazing_relative_amplitude: float
-    grazing_relative_amplitude_ratio: float
-    grazing_relative_error: float
-    lost_curve: npt.NDArray[np.float64]
-    quench_curve: npt.NDArray[np.float64]
-
-
-class AtlasTablesColumns(Frozen):
-    """Of :class:`quell.results.AtlasTables`."""
-
-    error_from: npt.NDArray[np.float64]
-    error_largest: npt.NDArray[np.float64]
-    error_law: npt.NDArray[np.str_]
-    error_median: npt.NDArray[np.float64]
-    error_points: npt.NDArray[Any]
-    error_stated: npt.NDArray[np.float64]
-    error_surface: npt.NDArray[np.str_]
-    error_to: npt.NDArray[np.float64]
-    error_waveform: npt.NDArray[np.str_]
-    frequency_ratio: npt.NDArray[np.float64]
-    friction_damping_per_cycle: npt.NDArray[np.float64]
-    grazing_amplitude: npt.NDArray[np.float64]
-    law: npt.NDArray[np.uint8]
-    least_frequency_ratio: float
-    least_friction_damping_per_cycle: float
-    least_relative_damping: float
-    least_velocity_share: float
-    lost_amplitude: npt.NDArray[np.float64]
-    most_frequency_ratio: float
-    most_friction_damping_per_cycle: float
-    most_relative_damping: float
-    most_velocity_share: float
-    quench_amplitude: npt.NDArray[np.float64]
-    relative_damping: npt.NDArray[np.float64]
-    relative_error: npt.NDArray[np.float64]
-    relative_velocity: npt.NDArray[np.float64]
-    velocity_share: npt.NDArray[np.float64]
-    waveform: npt.NDArray[np.uint8]
-
-
 class AttractorColumns(Frozen):
     """Of :class:`quell.results.Attractor`."""
 

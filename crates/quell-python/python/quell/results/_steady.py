@@ -367,67 +367,6 @@ class Probability(_columns.ProbabilityColumns, Result):
         return self.arrays["growth"].values
 
 
-class Atlas(_columns.AtlasColumns, Result):
-    """The exact thresholds of a belt from the tables of the atlas; arrays over the belt's speed (n,)."""
-
-    verb = "atlas"
-    law: str
-    """The law: "stribeck", "decreasing" or "stribeck-exponential"."""
-    waveform: str
-    """The waveform: "sine", "triangle" or "square"."""
-    relative_damping: float
-    """κ = ζ/ζ_f; a viscous part of the law counts as damping."""
-    relative_velocity: float
-    """v₀/v_m."""
-    frequency_ratio: float
-    """R."""
-    friction_damping: float
-    """ζ_f = F max|μ′|/2, the largest negative damping ratio of friction."""
-    friction_damping_per_cycle: float
-    """ζ_f/R."""
-    reference_velocity: float
-    """v_m."""
-    neutral_damping_without_dither: float
-    """κ at which steady sliding is neutral without dither."""
-    quiet_without: bool
-    """Whether steady sliding is stable without dither."""
-    quiet: bool
-    """Whether the base response is stable at the amplitude of the study."""
-    grazing: dict[str, float]
-    """``amplitude``, ``relative_amplitude`` (over v_m), ``relative_amplitude_ratio`` (α/v_m) and ``relative_error`` of the grazing."""
-    quench_amplitude: float | None
-    """Amplitude from which every larger one is quiet; ``None`` where every amplitude is."""
-    lost_amplitude: float | None
-    """Amplitude from which dither destabilises steady sliding; ``None`` where none does."""
-    changes: list[dict[str, Any]]
-    """The changes of the verdict: those of ``grazing``, ``kind``, ``becomes_quiet``, ``sensitive`` (the errors of the tables move the
-    amplitude by more than a thousandth), ``exact_amplitude`` and ``relative_difference``."""
-    exact_agrees: bool | None
-    """Whether the computation by continuation finds the same changes; ``None`` if it was not requested."""
-
-
-class AtlasTables(_columns.AtlasTablesColumns, Result):
-    """The tables of the atlas; arrays of thresholds at round numbers of the groups. It has no study."""
-
-    verb = "atlas_tables"
-    laws: list[str]
-    """The laws."""
-    waveforms: list[str]
-    """The waveforms."""
-    values: int
-    """Number of exact values."""
-    least: dict[str, float]
-    """The least ``relative_damping``, ``velocity_share``, ``frequency_ratio`` and ``friction_damping_per_cycle`` of answers."""
-    most: dict[str, float]
-    """The largest of each."""
-    errors: list[dict[str, Any]]
-    """The errors of each table in each band of ζ_f/R, ``from`` and ``to``, at random points: ``median``, ``quantile_90``, ``largest``, and the one ``stated``."""
-    largest_difference: float | None
-    """The largest difference of a recomputed value; ``None`` if nothing was recomputed."""
-    missing: int | None
-    """Number of values that could not be recomputed; ``None`` if nothing was recomputed."""
-
-
 class Waveforms(_columns.WaveformsColumns, Result):
     """The least dither of each waveform that quenches, and its cost; arrays over the waveforms (n,)."""
 

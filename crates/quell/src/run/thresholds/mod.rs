@@ -1,11 +1,12 @@
 //! `thresholds`: values of a parameter at which the base response, or a periodic motion near a state, gains or loses stability, and
 //! those at which runs from given starts begin or cease to end quiet. `answer` has the answer as data, `sentence` in words, and
-//! `curves` the thresholds over a second parameter. Without dither and without runs, eigenvalues decide
+//! `curves` the thresholds over a second parameter, `window` the range that is searched where none is given. Without dither and without runs, eigenvalues decide
 //! ([`tracked`](super::system::tracked)).
 
 mod answer;
 pub mod curves;
 mod sentence;
+mod window;
 
 use std::sync::Mutex;
 
@@ -34,6 +35,7 @@ use crate::quantity::bearable;
 use crate::study::SystemStudy;
 
 pub(crate) use answer::events_in_words;
+pub use window::{AMPLITUDE, window_of_amplitude};
 
 /// Equal steps between the values at which runs are tried; two changes between neighbouring values that cancel are missed.
 pub const TRIED: u32 = 40;
