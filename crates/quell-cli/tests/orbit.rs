@@ -240,12 +240,30 @@ fn a_lost_branch_does_not_discard_other_results() {
     assert_eq!(found["at_from"]["from_rest"], "not quenched");
     let changes = found["from_rest"].as_array().expect("changes");
     let becomes: Vec<_> = changes.iter().filter_map(|item| item["becomes"].as_str()).collect();
-    assert_eq!((becomes, found["warnings"].as_array().map(Vec::len)), (vec!["quenched"], Some(0)));
+    assert_eq!((becomes, found["warnings"].as_array().map(Vec::len)), (vec!["quenched"], Some(1)));
+    assert!(found["warnings"][0].as_str().is_some_and(|text| text.contains("within")), "{found}");
     for (amplitude, ends, is_base) in [("1.05", "period-1", true), ("1.13807", "locked", false)] {
         let set = format!("dither.amplitude={amplitude}");
         let (found, _) = quell(&["response", OWN, "--set", &set]);
         assert_eq!((&found["effect"], &found["ends_on"]), (&"quenches".into(), &ends.into()));
         assert_eq!((&found["base_response"], &found["quiet"]), (&is_base.into(), &true.into()));
+    }
+}
+
+/// Where a stick begins with a static level above μ(0⁺) no response exists next to the grazing: how far that reaches is stated as an error, and
+/// does not depend on the range.
+#[test]
+fn a_gap_beyond_a_grazing_is_an_error_of_the_threshold() {
+    for range in [["0.8", "2"], ["0.95", "1.05"], ["0.5", "20"]] {
+        let found = thresholds("studies/own-friction-law.toml", "dither.amplitude", range, &[]);
+        let local = &found["local"][0];
+        let number = |key: &str| local[key].as_f64().expect("a number");
+        assert!((number("value") - 0.990_450_492).abs() < 1e-8, "{local}");
+        // A run from rest still locks at 0.991, and is in step with the dither at 0.9915.
+        assert!((0.9e-3..5e-3).contains(&number("error")), "{local}");
+        assert_eq!((&local["was"], &local["becomes"]), (&"unstable".into(), &"stable".into()));
+        let warning = found["warnings"][0].as_str().expect("a warning");
+        assert!(warning.contains("no response was found"), "{warning}");
     }
 }
 

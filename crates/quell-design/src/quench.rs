@@ -5,6 +5,8 @@
 //! twice the larger of two amplitudes: that at which the fast slip is as fast as the surface (beyond it the contact reverses within every
 //! cycle, and the verdict hardly changes), and the last change by averaging. The dither of a prescribed load may at most lift it.
 
+use std::fmt;
+
 use quell_dynamics::motion::orbit::{NoMotionOrbit, sliding_state};
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_linear::averaging::{AveragingError, DitheredSystem};
@@ -60,6 +62,33 @@ pub enum NoQuench {
     Stalled,
     /// The limit has no value, because averaging has none.
     Averaging(AveragingError),
+}
+
+impl fmt::Display for NotQuenched {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::QuietWithout => {
+                "steady sliding is stable without this dither: there is nothing to quench"
+            }
+            Self::NeverQuiet => {
+                "the base response becomes stable at no amplitude up to the limit of the search"
+            }
+            Self::Ends => "the base response ends before it becomes stable",
+        })
+    }
+}
+
+impl fmt::Display for NoQuench {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoDither => f.write_str("no dither acts"),
+            Self::NoReach => f.write_str("the dither moves no contact"),
+            Self::NoSteadySliding => f.write_str("there is no steady sliding"),
+            Self::NoBaseResponse => f.write_str("there is no base response"),
+            Self::Stalled => f.write_str("the engine stopped"),
+            Self::Averaging(why) => write!(f, "by averaging: {why}"),
+        }
+    }
 }
 
 impl Quench {

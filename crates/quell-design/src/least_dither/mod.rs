@@ -40,7 +40,7 @@ pub use scaled::ScaledPlant;
 pub use schedule::ScheduledDither;
 pub use search::{DesignBasin, DesignPoint};
 pub use sensitivity::{LeastAmplitude, LeastAmplitudeSensitivity, SystemOfNumbers};
-pub use system::{SystemAtPoint, SystemPlant, amplitude_branch, averaged_quiet};
+pub use system::{SystemAtPoint, SystemPlant, amplitude_branch, averaged_quiet, first_averaged};
 pub use verified::VerifiedPoint;
 pub use worst_point::NoLeast;
 

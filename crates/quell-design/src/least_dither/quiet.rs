@@ -67,16 +67,16 @@ impl QuietAmplitudes {
         Self::of_changes((from, to), false, inside)
     }
 
-    /// The least amplitude that is quiet by averaging.
+    /// The first range of amplitudes that are quiet by averaging, up to the next change or without bound.
     ///
     /// # Errors
     /// Why no amplitude is.
-    pub(super) fn least_by_averaging(
+    pub(super) fn first_by_averaging(
         quiet_without: bool,
         changes: &[AveragedChange],
-    ) -> Result<f64, String> {
+    ) -> Result<(f64, f64), String> {
         let every = Self::by_averaging((0.0, f64::INFINITY), quiet_without, changes);
-        every.least_from(0.0).ok_or_else(|| {
+        every.intervals.first().copied().ok_or_else(|| {
             let end = changes.iter().find_map(|change| change.fails);
             end.map_or_else(
                 || "no amplitude of this frequency quenches by averaging".to_owned(),

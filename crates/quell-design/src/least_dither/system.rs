@@ -236,6 +236,16 @@ pub fn averaged_quiet(
     Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
 }
 
+/// The first range of amplitudes of a dither that are quiet by averaging: from 0 where sliding is stable without it, and up to the next
+/// change, or without bound.
+///
+/// # Errors
+/// Why no amplitude is quiet.
+pub fn first_averaged(system: &System, input: usize) -> Result<(f64, f64), String> {
+    let (quiet_without, changes) = averaged_changes(system, input).map_err(in_words)?;
+    QuietAmplitudes::first_by_averaging(quiet_without, &changes)
+}
+
 /// Whether a system is quiet without one of its dithers by averaging, and the changes over the amplitude of that dither.
 fn averaged_changes(
     system: &System,
@@ -269,8 +279,7 @@ impl Plant for SystemPlant<'_> {
 
     fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
         let system = (self.at)(at, 1.0)?;
-        let (quiet_without, changes) = averaged_changes(&system, self.input).map_err(in_words)?;
-        QuietAmplitudes::least_by_averaging(quiet_without, &changes)
+        Ok(first_averaged(&system, self.input)?.0)
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {

@@ -57,6 +57,8 @@ pub enum NoEnd {
     NoOrbit(NoMotionOrbit),
     /// No limit cycle was found.
     NoCycle(NoCycle),
+    /// Without dither the run is near an unstable limit cycle of this period, which it leaves at the slightest disturbance.
+    UnstableCycle(f64),
 }
 
 impl NoEnd {
@@ -87,6 +89,11 @@ impl fmt::Display for NoEnd {
             Self::Unsettled(why) => f.write_str(why.about()),
             Self::NoOrbit(why) => why.fmt(f),
             Self::NoCycle(why) => why.fmt(f),
+            Self::UnstableCycle(period) => write!(
+                f,
+                "it comes so near an unstable limit cycle of period {} that its end is not known",
+                digits(*period, DIGITS)
+            ),
         }
     }
 }
@@ -268,12 +275,11 @@ pub(super) enum FreeMotion {
     Rest(Vec<f64>),
 }
 
-/// The motion without dither on which a run from a state ends. A run on an unstable cycle leaves it at the slightest disturbance: that is
-/// not its end.
+/// The motion without dither on which a run from a state ends.
 pub(super) fn free_motion(system: &System, start: &[f64]) -> Result<FreeMotion, NoEnd> {
     match free_cycle(system, &displaced(system, start)) {
         Ok(cycle) if cycle.verdict() == OrbitVerdict::Unstable => {
-            Err(NoEnd::Unsettled(Unsettled::Dwelling))
+            Err(NoEnd::UnstableCycle(cycle.period))
         }
         Ok(cycle) => Ok(FreeMotion::Cycle(cycle)),
         Err(NoCycle::Rest { state, .. }) => Ok(FreeMotion::Rest(state)),

@@ -189,7 +189,7 @@ fn over_a_corner<F: PeriodMap>(
     out: &mut Vec<SpecialPoint<F::Signature>>,
 ) -> Option<(BranchSolution<F::Signature>, f64)> {
     let Follow { from, to, shortest, .. } = run.follow;
-    let next = run.beyond(here, here.tangent.last()?.signum())?;
+    let (next, _) = run.beyond(here, here.tangent.last()?.signum())?;
     let step_length = distance(&next.unknowns, &here.unknowns).max(10.0 * shortest);
     let error = (next.parameter() - here.parameter()).abs() * (to - from).abs();
     out.push(run.special_point(BifurcationKind::Border, here, error, here, Some(&next)));

@@ -270,11 +270,11 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             let located = self.root(here, &next, held, |solution| solution.image.distance);
             let Some((grazing, error)) = located else { return StepOutcome::Failed };
             self.thresholds(here, &grazing, out);
-            let after = self.beyond(&grazing, here.tangent[n].signum());
+            let (after, gap) = self.beyond(&grazing, here.tangent[n].signum()).unzip();
             out.push(self.special_point(
                 BifurcationKind::Grazing,
                 &grazing,
-                error,
+                error.max(gap.unwrap_or(0.0)),
                 &grazing_side(here, &grazing),
                 after.as_ref(),
             ));

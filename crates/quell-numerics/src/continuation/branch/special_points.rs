@@ -8,8 +8,20 @@ use super::run::{BranchSolution, ContinuationRun, MaybeSolution};
 use crate::order::ascending_by;
 use crate::roots::{Closeness, find_root, minimise};
 
-/// First and last distance beyond a grazing point at which the branch is searched for, in the scaled parameter.
-const BEYOND: (f64, f64) = (1e-7, 2e-2);
+/// First distance beyond a grazing point at which the branch is searched for, in the scaled parameter, and its growth. Where a stick begins
+/// with a static level above μ(0⁺), no response exists next to the grazing, over 10⁻³ of the parameter in cases that were met: a larger
+/// growth leaves more of the gap unknown than there is.
+const NEAREST: f64 = 1e-7;
+const GROWTH: f64 = 2.0;
+
+/// The last of these distances, over the parameter, so that it does not depend on the window, or over this part of the window, where the
+/// parameter is smaller. With a larger value another branch could be taken for the continuation.
+const FARTHEST: f64 = 2e-2;
+const LEAST_PART: f64 = 1e-2;
+
+/// Shares of the distance at which the state must be nearer to the grazing state, and by how much at most: like a square root, with a margin.
+/// A motion that jumps at the border by as much as it moves beyond it gives 0.63 and 0.75.
+const TENDING: [(f64, f64); 2] = [(0.25, 0.6), (0.5, 0.74)];
 
 /// How many times further than the parameter the state may move before the first of these distances is shortened, and its least share: in
 /// a wide window the next border may be nearer than the unshortened one, and the branch is then lost or leapt over. Windows that are not
@@ -229,29 +241,33 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
     }
 
     /// The branch beyond a grazing point: forward in the direction of the run, otherwise backward; accepted only if it is
-    /// continuous there.
+    /// continuous there. With it the distance in the parameter up to which nothing is known next to the point: 0 where the branch was found
+    /// at once.
     pub(super) fn beyond(
         &self,
         grazing: &BranchSolution<F::Signature>,
         towards: f64,
-    ) -> MaybeSolution<F> {
+    ) -> Option<(BranchSolution<F::Signature>, f64)> {
         let n = grazing.unknowns.len() - 1;
-        let (state, _) = self.unscaled(&grazing.unknowns);
+        let (state, at) = self.unscaled(&grazing.unknowns);
         let share = grazing.unknowns[n];
         let slope = grazing.tangent[n].abs() * STEEP;
-        let nearest = BEYOND.0 * slope.clamp(LEAST_SHARE, 1.0);
+        let nearest = NEAREST * slope.clamp(LEAST_SHARE, 1.0);
+        let width = (self.follow.to - self.follow.from).abs();
+        let farthest = FARTHEST * (at.abs() / width).max(LEAST_PART);
         for side in [towards, -towards] {
             let mut away = nearest;
-            while away <= BEYOND.1 {
+            while away <= farthest.max(nearest) {
                 let far = share + side * away;
                 if (0.0..=1.0).contains(&far)
                     && let Some(found) = self.standing(&state, far, side)
                     && (side == towards || found.image.signature != grazing.image.signature)
                     && self.is_joined(grazing, &found, side)
                 {
-                    return Some(found);
+                    let gap = if away == nearest { 0.0 } else { away * width };
+                    return Some((found, gap));
                 }
-                away *= 8.0;
+                away *= GROWTH;
             }
         }
         None
@@ -266,11 +282,13 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
     ) -> bool {
         let n = grazing.unknowns.len() - 1;
         let far = distance(&grazing.unknowns[..n], &found.unknowns[..n]);
-        let middle: Vec<f64> =
-            grazing.unknowns.iter().zip(&found.unknowns).map(|(a, b)| a + 0.25 * (b - a)).collect();
-        let (guess, _) = self.unscaled(&middle);
-        self.standing(&guess, middle[n], side).is_some_and(|quarter| {
-            distance(&grazing.unknowns[..n], &quarter.unknowns[..n]) <= 0.6 * far + 1e-8
+        TENDING.into_iter().any(|(part, most)| {
+            let pairs = grazing.unknowns.iter().zip(&found.unknowns);
+            let guess: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
+            let (state, _) = self.unscaled(&guess);
+            self.standing(&state, guess[n], side).is_some_and(|nearer| {
+                distance(&grazing.unknowns[..n], &nearer.unknowns[..n]) <= most * far + 1e-8
+            })
         })
     }
 

@@ -43,6 +43,9 @@ pub(super) fn end_of(ending: BranchEnding) -> Option<f64> {
     }
 }
 
+/// Relative error of a threshold from which a warning states it: sentences show six digits.
+const WIDE: f64 = 1e-5;
+
 impl Thresholds {
     /// A value of the parameter with its unit.
     pub fn value(&self, study: &SystemStudy, value: f64) -> String {
@@ -90,10 +93,19 @@ impl Thresholds {
             )
         });
         let beyond = beyond_laws(study, |contact| self.slip[contact]);
+        let local = self.local.iter().flat_map(|local| &local.thresholds);
+        let wide = local.filter(|found| found.error > WIDE * found.value.abs()).map(|found| {
+            let (value, error) = (self.value(study, found.value), self.value(study, found.error));
+            format!(
+                "the {} at {path} = {value} is known within {error} alone: next to it no response was found",
+                found.kind.name()
+            )
+        });
         study
             .warnings()
             .iter()
             .cloned()
+            .chain(wide)
             .chain(silent)
             .chain(beyond)
             .chain(in_band)

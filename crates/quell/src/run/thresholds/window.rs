@@ -1,6 +1,6 @@
 //! The window of `thresholds` where none is given: the amplitudes of a dither up to the limit of `quench-amplitude`.
 
-use quell_design::quench::{NoQuench, amplitude_limit};
+use quell_design::quench::amplitude_limit;
 use quell_model::System;
 use quell_model::profile::Wave;
 
@@ -43,7 +43,7 @@ pub fn window_of_amplitude(study: &SystemStudy, path: &str) -> Result<(f64, f64)
         Ok(limit) => Ok((0.0, limit / unit)),
         Err(why) => Err(failed(
             "thresholds",
-            format!("{path} has no range of its own ({}); give --from and --to", why_not(&why)),
+            format!("{path} has no range of its own ({why}); give --from and --to"),
         )),
     }
 }
@@ -55,15 +55,4 @@ fn missing(option: &'static str, allowed: &str) -> Failure {
 fn first_amplitude(system: &System, input: usize) -> Option<f64> {
     let waves: &[Wave] = system.inputs.get(input)?.profile.waves();
     waves.first().map(|wave| wave.amplitude)
-}
-
-fn why_not(why: &NoQuench) -> String {
-    match why {
-        NoQuench::NoDither => "no dither acts".to_owned(),
-        NoQuench::NoReach => "the dither moves no contact".to_owned(),
-        NoQuench::NoSteadySliding => "there is no steady sliding".to_owned(),
-        NoQuench::NoBaseResponse => "there is no base response".to_owned(),
-        NoQuench::Stalled => "the engine stopped".to_owned(),
-        NoQuench::Averaging(why) => format!("by averaging: {why}"),
-    }
 }
