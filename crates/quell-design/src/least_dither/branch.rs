@@ -65,6 +65,7 @@ impl AmplitudeBranch {
         for (amplitude, error, kind, [_, becomes]) in thresholds {
             let becomes_quiet = becomes == stable;
             if becomes_quiet != quiet {
+                let amplitude = certain(amplitude, error, becomes_quiet);
                 changes.push(QuietChange { amplitude, error, kind, becomes_quiet });
                 quiet = becomes_quiet;
             }
@@ -96,6 +97,19 @@ impl AmplitudeBranch {
     }
 }
 
+/// Relative error of a threshold from which the amplitudes within it do not count as quiet: far above the error of an exact one. Next to a
+/// grazing of a law whose static level is above μ(0⁺) no response exists over a gap, which is its error.
+const WIDE: f64 = 1e-6;
+
+/// The amplitude from which it is certain that the base response is quiet, or up to which.
+fn certain(amplitude: f64, error: f64, becomes_quiet: bool) -> f64 {
+    match (error > WIDE * amplitude.abs(), becomes_quiet) {
+        (false, _) => amplitude,
+        (true, true) => amplitude + error,
+        (true, false) => amplitude - error,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,6 +133,14 @@ mod tests {
         assert_eq!(found.quiet().intervals(), [(1.0, 4.0)]);
         let amplitudes: Vec<f64> = found.changes.iter().map(|change| change.amplitude).collect();
         assert_eq!(amplitudes, [1.0, 4.0]);
+    }
+
+    #[test]
+    fn nothing_within_a_gap_is_quiet() {
+        let up = (1.0, 0.01, ThresholdKind::Grazing, [UNSTABLE, STABLE]);
+        let down = (4.0, 0.02, ThresholdKind::Grazing, [STABLE, UNSTABLE]);
+        let found = branch(&[up, down], BranchEnding::Covered);
+        assert_eq!(found.quiet().intervals(), [(1.01, 3.98)]);
     }
 
     #[test]

@@ -95,9 +95,11 @@ impl Thresholds {
         let beyond = beyond_laws(study, |contact| self.slip[contact]);
         let local = self.local.iter().flat_map(|local| &local.thresholds);
         let wide = local.filter(|found| found.error > WIDE * found.value.abs()).map(|found| {
-            let (value, error) = (self.value(study, found.value), self.value(study, found.error));
+            let value = self.value(study, found.value);
+            let [low, high] = [-1.0, 1.0].map(|side| found.value + side * found.error);
+            let (low, high) = (self.value(study, low), self.value(study, high));
             format!(
-                "the {} at {path} = {value} is known within {error} alone: next to it no response was found",
+                "stability changes between {path} = {low} and {high}, about the {} at {value}: next to it no response was found",
                 found.kind.name()
             )
         });
