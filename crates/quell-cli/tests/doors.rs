@@ -174,10 +174,17 @@ fn thresholds_of_an_amplitude_need_no_range() {
     let own = numbers(&["brake-si.toml"]);
     let newtons = numbers(&["brake-si.toml", "--parameter", "dither.amplitude_n"]);
     assert!((own.1 / newtons.1 - 1.0).abs() < 1e-12 && own.2 == newtons.2, "{own:?} {newtons:?}");
+    // One end is enough; a curve has the limit of all its values, and a slow dither that of static friction.
+    assert_eq!(numbers(&["quench.toml", "--to", "0.6"]).1, 0.6);
+    let fast = ["quench.toml", "--along", "belt.belt_velocity", "--between", "0.11:0.14"];
+    let curves = place.good(&[&["thresholds"][..], &fast].concat());
+    assert_eq!(curves["curves"].as_array().map(Vec::len), Some(1), "{curves}");
+    let slow = numbers(&["quench.toml", "--set", "dither.frequency_ratio=2"]);
+    assert!((slow.2 - 0.236_608).abs() < 1e-6, "{slow:?}");
     place.write("free.toml", FREE);
     for (words, key) in [
         (&["quench.toml", "--parameter", "belt.belt_velocity"][..], "--from"),
-        (&["free.toml"], "--parameter"),
+        (&["free.toml"], "dither"),
     ] {
         let errors = place.refused(&[&["thresholds"], words].concat());
         assert_eq!(errors[0]["key"], key, "{errors:?}");

@@ -2,8 +2,9 @@
 //!
 //! The base response is followed from steady sliding without this dither up to a limit, by the continuation of `thresholds` and
 //! `design`. So a change below the least amplitude cannot be missed, and every further change above it is known too. The limit is
-//! twice the larger of two amplitudes: that at which the fast slip is as fast as the surface (beyond it the contact reverses within every
-//! cycle, and the verdict hardly changes), and the last change by averaging. The dither of a prescribed load may at most lift it.
+//! twice the largest of three amplitudes: that at which the fast slip is as fast as the surface (beyond it the contact reverses within every
+//! cycle, and the verdict hardly changes), the last change by averaging, and the largest static friction of a contact, which a slow force
+//! has to overcome. The dither of a prescribed load may at most lift it.
 
 use std::fmt;
 
@@ -68,7 +69,7 @@ impl fmt::Display for NotQuenched {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::QuietWithout => {
-                "steady sliding is stable without this dither: there is nothing to quench"
+                "steady sliding is stable without this dither: it needs no dither to be"
             }
             Self::NeverQuiet => {
                 "the base response becomes stable at no amplitude up to the limit of the search"
@@ -82,7 +83,7 @@ impl fmt::Display for NoQuench {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoDither => f.write_str("no dither acts"),
-            Self::NoReach => f.write_str("the dither moves no contact"),
+            Self::NoReach => f.write_str("the dither moves no contact that slides"),
             Self::NoSteadySliding => f.write_str("there is no steady sliding"),
             Self::NoBaseResponse => f.write_str("there is no base response"),
             Self::Stalled => f.write_str("the engine stopped"),
@@ -206,7 +207,18 @@ pub fn amplitude_limit(system: &System, input: usize) -> Result<f64, NoQuench> {
     let corner = *corners.first().ok_or(NoQuench::NoReach)?;
     let averaged = prepared.critical_amplitudes(input).map_err(no_average)?;
     let last = averaged.iter().map(|critical| critical.amplitude).fold(0.0, f64::max);
-    Ok(BEYOND * corner.max(last))
+    Ok(BEYOND * corner.max(last).max(static_friction(system, input)))
+}
+
+/// The amplitude of a force that is as large as the largest static friction of a contact; 0 for other inputs.
+fn static_friction(system: &System, input: usize) -> f64 {
+    let InputTarget::Force(row) = &system.inputs[input].target else { return 0.0 };
+    let largest = row.iter().fold(0.0, |most: f64, share| most.max(share.abs()));
+    let friction = system
+        .contacts
+        .iter()
+        .map(|contact| contact.friction.static_coefficient() * contact.load().bounds().1.max(0.0));
+    if largest > 0.0 { friction.fold(0.0, f64::max) / largest } else { 0.0 }
 }
 
 /// The amplitude of a dither that a prescribed load bears, where it and the others lift the load.

@@ -102,6 +102,19 @@ fn a_small_slow_motion_about_an_unstable_response_is_not_quiet() {
     assert!(above.quiet && above.base, "{above:?}");
 }
 
+/// Friction so strong that unstable sliding is left without oscillation: slips take longer than periods of the structure, and the run
+/// still ends on stick-slip, for every judge.
+#[test]
+fn strong_friction_keeps_vibrating() {
+    for load in [15.0, 20.0, 100.0] {
+        let belt = belt::stribeck().with_normal_load(load).expect("valid");
+        assert_eq!(keeps_vibrating(&belt, Start::REST), Ok(true), "{load}");
+        assert_eq!(cycles(&belt).expect("no stall").len(), 1, "{load}");
+        let end = outcome_of_run(&belt.system(), &[0.0, 0.0]).expect("an end");
+        assert_eq!(end.is_quiet(), Some(false), "{load}");
+    }
+}
+
 /// The squeal of the Stribeck law shrinks to zero at the Hopf point and not before: starts, cycles, thresholds and orbits agree.
 #[test]
 fn squeal_ends_at_the_hopf_point() {

@@ -373,7 +373,7 @@ impl NativeStudy {
         &self,
         py: Python<'_>,
         parameter: String,
-        range: Option<Pair>,
+        range: thresholds::Ends,
         runs: (Vec<String>, Option<GivenState>, String),
         near: Option<(GivenState, u32)>,
     ) -> PyResult<NativeAnswer> {
@@ -381,7 +381,7 @@ impl NativeStudy {
         call::run(py, move || {
             let (names, start, ramp) = &runs;
             let near = near.as_ref().map(|(state, periods)| (state, *periods));
-            thresholds::run(&study, parameter, range.as_ref(), (names, start.as_ref(), ramp), near)
+            thresholds::run(&study, parameter, &range, (names, start.as_ref(), ramp), near)
         })
     }
 
@@ -390,14 +390,12 @@ impl NativeStudy {
         &self,
         py: Python<'_>,
         parameter: String,
-        range: Option<Pair>,
+        range: thresholds::Ends,
         along: String,
         between: Pair,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || {
-            thresholds::run_along(&study, parameter, range.as_ref(), along, &between)
-        })
+        call::run(py, move || thresholds::run_along(&study, parameter, &range, along, &between))
     }
 
     /// `ways`: whether the sweep up and the sweep down are requested.

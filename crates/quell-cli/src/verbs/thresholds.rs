@@ -5,7 +5,7 @@ use quell::Failure;
 use quell::run::protocol::{Protocol, read_state_of};
 use quell::run::system::start;
 use quell::run::thresholds::curves::CurvesRequest;
-use quell::run::thresholds::{AMPLITUDE, ThresholdsRequest, window_of_amplitude};
+use quell::run::thresholds::{AMPLITUDE, ThresholdsRequest, window_of};
 use quell::study::SystemStudy;
 use quell::verbs::{system_of, verbs};
 
@@ -22,11 +22,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "PATH", default_value = AMPLITUDE, value_hint = ValueHint::Other)]
     parameter: String,
     /// Smallest value, in the unit of the key or with a unit, such as 5kN [default: of an amplitude, 0]
-    #[arg(long, value_name = "A", requires = "to", allow_hyphen_values = true, value_hint = ValueHint::Other)]
+    #[arg(long, value_name = "A", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     from: Option<String>,
-    /// Largest value, in the unit of the key or with a unit, such as 5kN [default: of an amplitude, twice the larger of the last change
-    /// by averaging and of that at which the contact reverses within every cycle]
-    #[arg(long, value_name = "B", requires = "from", allow_hyphen_values = true, value_hint = ValueHint::Other)]
+    /// Largest value, in the unit of the key or with a unit, such as 5kN [default: of an amplitude, the limit of quench-amplitude]
+    #[arg(long, value_name = "B", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     to: Option<String>,
     /// Also finds the thresholds of runs from rest
     #[arg(long)]
@@ -69,7 +68,8 @@ impl Arguments {
     fn request(
         &self,
         system: &SystemStudy,
-        window: Option<(f64, f64)>,
+        (from, to): (Option<f64>, Option<f64>),
+        between: Option<(f64, f64)>,
         complaints: &mut Gathered,
     ) -> Option<ThresholdsRequest> {
         let mut read = |option, text: &Option<String>| {
@@ -86,13 +86,8 @@ impl Arguments {
         let asked = flags.into_iter().filter(|(asked, _)| *asked).map(|(_, protocol)| protocol);
         let protocols = asked.chain(start?.map(Protocol::From)).collect();
         let near = near?.map(|state| (state, self.periods));
-        let window = match window {
-            Some(window) => window,
-            None if self.from.is_none() => {
-                complaints.take(window_of_amplitude(system, &self.parameter))?
-            }
-            None => return None,
-        };
+        let along = self.along.as_deref().zip(between);
+        let window = complaints.take(window_of(system, &self.parameter, (from, to), along))?;
         let parameter = self.parameter.clone();
         Some(ThresholdsRequest { parameter, window, near, protocols, ramp: ramp? })
     }
@@ -105,16 +100,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let inputs = inputs(study.as_ref());
     let mut end = |option, text: &Option<String>| {
         let read = |text: &str| number(option, text, &arguments.parameter, study.as_ref());
-        complaints.take(text.as_deref().map(read).transpose()).flatten()
+        complaints.take(text.as_deref().map(read).transpose())
     };
-    let range = end("--from", &arguments.from).zip(end("--to", &arguments.to));
+    let ends = end("--from", &arguments.from).zip(end("--to", &arguments.to));
     let along = arguments.along.as_deref().unwrap_or_default();
     let between =
         arguments.between.as_deref().map(|text| window("--between", text, along, study.as_ref()));
     let between = complaints.take(between.transpose());
     let system = study.as_ref().map(|study| system_of(study, "thresholds"));
-    let request = match complaints.take(system.transpose()) {
-        Some(Some(system)) => arguments.request(&system, range, &mut complaints),
+    let request = match (complaints.take(system.transpose()), ends) {
+        (Some(Some(system)), Some(ends)) => {
+            arguments.request(&system, ends, between.flatten(), &mut complaints)
+        }
         _ => None,
     };
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));

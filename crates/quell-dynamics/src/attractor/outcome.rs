@@ -5,8 +5,8 @@ use quell_model::{OneMass, System};
 use super::end_of_run::{FreeMotion, NoEnd, free_motion, judged_mass, starts_of_mass};
 use super::measure::classified;
 use super::settings::AttractorSettings;
-use super::settle::{Patience, settle_many};
-use crate::motion::orbit::{NoMotionOrbit, settled};
+use super::settle::{Patience, SettleOutcome, settle_many};
+use crate::motion::orbit::{NoMotionOrbit, settled, sliding_state};
 use crate::simulation::Stalled;
 
 /// How a run ends.
@@ -39,13 +39,10 @@ impl RunOutcome {
 /// [`NoEnd`].
 pub fn outcome_of_run(system: &System, start: &[f64]) -> Result<RunOutcome, NoEnd> {
     if let Some(mass) = judged_mass(system) {
-        return outcome_of_one_mass(&mass, start);
+        return outcome_of_one_mass(system, &mass, start);
     }
     if !system.is_dithered() {
-        return Ok(match free_motion(&system.undithered(), start)? {
-            FreeMotion::Cycle(_) => RunOutcome::Vibrating,
-            FreeMotion::Rest(state) => RunOutcome::Quiet(state, 1),
-        });
+        return of_free_motion(&system.undithered(), start);
     }
     match settled(system, start) {
         Ok(found) if found.is_quiet(system) => {
@@ -56,12 +53,29 @@ pub fn outcome_of_run(system: &System, start: &[f64]) -> Result<RunOutcome, NoEn
     }
 }
 
-fn outcome_of_one_mass(mass: &OneMass, start: &[f64]) -> Result<RunOutcome, NoEnd> {
+fn of_free_motion(system: &System, start: &[f64]) -> Result<RunOutcome, NoEnd> {
+    Ok(match free_motion(system, start)? {
+        FreeMotion::Cycle(_) => RunOutcome::Vibrating,
+        FreeMotion::Rest(state) => RunOutcome::Quiet(state, 1),
+    })
+}
+
+fn outcome_of_one_mass(
+    system: &System,
+    mass: &OneMass,
+    start: &[f64],
+) -> Result<RunOutcome, NoEnd> {
     let settings = AttractorSettings::new(mass.belt()).map_err(NoEnd::NoSection)?;
     let stopped = |why: Stalled| NoEnd::of_mass(mass, &why);
     let settled = settle_many(&settings, &starts_of_mass(mass, &[start.to_vec()]), Patience::SWEEP);
     let settled = settled.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED));
     let settled = settled.map_err(stopped)?;
+    if settings.is_autonomous() && settled.outcome == SettleOutcome::Base {
+        // Unstable sliding is left, as by the judge.
+        let free = system.undithered();
+        let sliding = sliding_state(&free).unwrap_or_else(|_| start.to_vec());
+        return of_free_motion(&free, &sliding);
+    }
     let found = classified(&settings, &settled).map_err(stopped)?;
     let found = found.ok_or_else(|| NoEnd::unsettled(&settings, &settled))?;
     if !found.is_quiet(&settings) {

@@ -206,19 +206,20 @@ impl<'a> UnditheredResponse<'a> {
         })
     }
 
-    /// Whether the run keeps vibrating: of one mass by its cycle map, otherwise by the motion on which it ends, or by its lines, compared
-    /// with the largest motion of both runs.
+    /// Whether the run keeps vibrating: by the motion on which it ends; where that has no period of one mass by its cycle map, otherwise by
+    /// its lines, compared with the largest motion of both runs.
     fn vibrates(&self, lines: RecordLines) -> Result<(), Undefined> {
+        let ending = &self.record.ending;
+        if ending.period().is_some() {
+            return Ok(());
+        }
         if let Some(mass) = self.still.one_mass() {
             let (displacement, velocity) = mass.of_state(&self.start.state);
             let start = Start { time: self.start.time, displacement, velocity };
             let case = ResponseCase { belt: mass.belt().clone(), start };
             return keeps_vibrating_without(&case).unwrap_or(Err(Undefined::UnditheredUnknown));
         }
-        let ending = &self.record.ending;
-        if ending.period().is_some() {
-            Ok(())
-        } else if *ending == SystemEnding::UnstableSliding {
+        if *ending == SystemEnding::UnstableSliding {
             Err(Undefined::UnditheredUnstable)
         } else if *ending == SystemEnding::Drift {
             Err(Undefined::UnditheredDrifts)

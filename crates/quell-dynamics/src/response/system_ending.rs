@@ -56,8 +56,6 @@ impl SystemEnding {
             {
                 Self::UnstableSliding
             }
-            // A cycle that is not stable is not where a run ends.
-            MotionKind::Cycle { radius, .. } if radius >= 1.0 => Self::Record(None),
             MotionKind::Cycle { period, .. } => {
                 Self::Motion { found: Box::new(found), period: Some(period) }
             }

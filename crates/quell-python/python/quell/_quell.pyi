@@ -83,12 +83,12 @@ class NativeStudy:
     def thresholds(
         self,
         parameter: str,
-        range: tuple[str, str] | None,
+        range: tuple[str | None, str | None],
         runs: tuple[list[str], tuple[str, str] | list[tuple[str, str]] | None, str],
         near: tuple[tuple[str, str] | list[tuple[str, str]], int] | None,
     ) -> NativeAnswer: ...
     def threshold_curves(
-        self, parameter: str, range: tuple[str, str] | None, along: str, between: tuple[str, str]
+        self, parameter: str, range: tuple[str | None, str | None], along: str, between: tuple[str, str]
     ) -> NativeAnswer: ...
     def bifurcation(
         self,

@@ -462,6 +462,127 @@ class Study(CheckedStudy):
             such as ``dither.amplitude_n``.
         from_, to :
             The range to search, in the unit of that key or as texts with units such as ``"5kN"`` (``--from``
+            and ``--to`` on the command line) [default: of the amplitude of a dither from 0 to the limit of ``quench-amplitude``
+            in maps, along a second parameter the largest].
+        from_rest, from_sliding, from_squeal, start :
+            Also find thresholds of runs from rest, from steady sliding, from full squeal, or from a state: (x, x′) of one mass, or
+            numbers such as ``{"x": 0.1, "velocity.x": -2}`` that replace those of the study's start.
+        ramp :
+            Time over which the dither of these runs grows [default: it is switched on]: τ, in a study with units seconds.
+        along, between :
+            A second parameter, given like the first, and its range: each local threshold is continued as a curve.
+        near, periods :
+            A state near which the periodic motion to follow is searched at the first value, given like ``start``, and its
+            number of dither periods [default: the base response].
+        """
+        arguments = Arguments()
+        path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
+        ends = (
+            None if from_ is None else arguments.quantity("from_", from_),
+            None if to is None else arguments.quantity("to", to),
+        )
+        count = arguments.whole("periods", periods, 1, 1000)
+        flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
+        asked = [name for name, wanted in flags.items() if wanted]
+        if len(asked) + (start is not None) > 1:
+            arguments.wrong.append(complaint("start", start, "one start alone", "conflict"))
+        if asked or start is not None:
+            for name, given, there in (("near", near, near is not None), ("periods", periods, count != 1)):
+                if there:
+                    allowed = "given without a start: a run determines its response"
+                    arguments.wrong.append(complaint(name, given, allowed, "conflict"))
+        arguments.done()
+        return results.Orbit._of(self, self._native.orbit(state, count, asked[0] if asked else None, begin))
+
+    @keywords
+    def attractor(
+        self,
+        *,
+        start: State | Mapping[str, Number] | None = None,
+        lyapunov: bool = False,
+        settle: Number | None = None,
+        record: Number | None = None,
+    ) -> results.Attractor:
+        """The motion on which a run ends and, on request, its Lyapunov exponents.
+
+        Parameters
+        ----------
+        start :
+            (x, x′) of one mass, or numbers that replace those of the study's start, such as ``{"x": 0.1, "velocity.x": -2}``, in
+            the units of the study or as texts with units [default: the start of the study].
+        lyapunov :
+            Whether to measure the exponents: mean rates at which small changes of the motion grow.
+        settle, record :
+            Time before the record of the exponents and its length; in a study with units also a text such as ``"50ms"``
+            [default: 50 and 1000 periods of the slowest oscillation].
+        """
+        arguments = Arguments()
+        allowed = 'a finite number, or a time with its unit such as "0.5s"'
+        before = None if settle is None else arguments.quantity("settle", settle, allowed)
+        length = None if record is None else arguments.quantity("record", record, allowed)
+        for name, given in (("settle", settle), ("record", record)):
+            if given is not None and not lyapunov:
+                arguments.wrong.append(complaint(name, given, "given with lyapunov=True", "conflict"))
+        times = (before, length) if lyapunov else None
+        begin = arguments.state("start", start)
+        arguments.done()
+        return results.Attractor._of(self, self._native.attractor(begin, times))
+
+    @overload
+    def thresholds(
+        self,
+        parameter: str = "dither.amplitude",
+        from_: Number | None = None,
+        to: Number | None = None,
+        *,
+        from_rest: bool = False,
+        from_sliding: bool = False,
+        from_squeal: bool = False,
+        start: State | Mapping[str, Number] | None = None,
+        ramp: Number = 0.0,
+        near: State | Mapping[str, Number] | None = None,
+        periods: int = 1,
+    ) -> results.Thresholds: ...
+
+    @overload
+    def thresholds(
+        self,
+        parameter: str = "dither.amplitude",
+        from_: Number | None = None,
+        to: Number | None = None,
+        *,
+        along: str,
+        between: State,
+    ) -> results.ThresholdCurves: ...
+
+    @keywords
+    def thresholds(
+        self,
+        parameter: str = "dither.amplitude",
+        from_: Number | None = None,
+        to: Number | None = None,
+        *,
+        from_rest: bool = False,
+        from_sliding: bool = False,
+        from_squeal: bool = False,
+        start: State | Mapping[str, Number] | None = None,
+        ramp: Number = 0.0,
+        along: str | None = None,
+        between: State | None = None,
+        near: State | Mapping[str, Number] | None = None,
+        periods: int = 1,
+    ) -> results.Thresholds | results.ThresholdCurves:
+        """Exact values of a parameter at which dither starts or stops quenching, or their curves in two parameters.
+
+        Without dither and without runs: the values at which steady sliding becomes stable or unstable, those of :meth:`stability`.
+
+        Parameters
+        ----------
+        parameter :
+            Path of a number of the equations, such as ``dither.amplitude``; in a study in SI also its key in SI,
+            such as ``dither.amplitude_n``.
+        from_, to :
+            The range to search, in the unit of that key or as texts with units such as ``"5kN"`` (``--from``
             and ``--to`` on the command line) [default: of the amplitude of a dither from 0 to twice the larger of the last
             change by averaging and of the amplitude at which the contact reverses within every cycle].
         from_rest, from_sliding, from_squeal, start :

@@ -3,19 +3,29 @@
 use quell::run::protocol::Protocol;
 use quell::run::system::start;
 use quell::run::thresholds::curves::CurvesRequest;
-use quell::run::thresholds::{ThresholdsRequest, window_of_amplitude};
+use quell::run::thresholds::{ThresholdsRequest, window_of};
 use quell::verbs::{system_of, verbs};
 use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;
-use crate::arguments::{GivenState, Pair, ends};
+use crate::arguments::{GivenState, Pair};
+
+/// An end of a range, or a text that is not given.
+pub(crate) type Ends = (Option<String>, Option<String>);
 
 /// The window of a parameter: as given, or that of an amplitude.
-fn window(study: &Study, parameter: &str, range: Option<&Pair>) -> Result<(f64, f64), Failure> {
-    match range {
-        Some(range) => ends(study, parameter, range),
-        None => window_of_amplitude(&system_of(study, "thresholds")?, parameter),
-    }
+fn window(
+    study: &Study,
+    parameter: &str,
+    (from, to): &Ends,
+    along: Option<(&str, (f64, f64))>,
+) -> Result<(f64, f64), Failure> {
+    let end = |option, text: &Option<String>| {
+        let read = |text: &str| quantity::value_of(Some(study), text, parameter, option);
+        text.as_deref().map(read).transpose()
+    };
+    let ends = (end("--from", from)?, end("--to", to)?);
+    window_of(&system_of(study, "thresholds")?, parameter, ends, along)
 }
 
 /// Runs the verb. `range`: the values of the parameter that are searched [default: those of an amplitude]; `runs`: names of the fields of starts, a further start, and the
@@ -23,12 +33,12 @@ fn window(study: &Study, parameter: &str, range: Option<&Pair>) -> Result<(f64, 
 pub(crate) fn run(
     study: &Study,
     parameter: String,
-    range: Option<&Pair>,
+    range: &Ends,
     (names, start, ramp): (&[String], Option<&GivenState>, &str),
     near: Option<(&GivenState, u32)>,
 ) -> Result<NativeAnswer, Failure> {
     let system = system_of(study, "thresholds")?;
-    let window = window(study, &parameter, range)?;
+    let window = window(study, &parameter, range, None)?;
     let known = [Protocol::Rest, Protocol::Sliding, Protocol::Squeal];
     let asked = known.into_iter().filter(|known| names.iter().any(|name| name == known.name()));
     let mut protocols: Vec<Protocol> = asked.collect();
@@ -48,14 +58,14 @@ pub(crate) fn run(
 pub(crate) fn run_along(
     study: &Study,
     parameter: String,
-    range: Option<&Pair>,
+    range: &Ends,
     along: String,
     between: &Pair,
 ) -> Result<NativeAnswer, Failure> {
     let verbs = verbs(study);
-    let window = window(study, &parameter, range)?;
     let value = |text: &str| quantity::value_of(Some(study), text, &along, "--between");
     let between = (value(&between.0)?, value(&between.1)?);
+    let window = window(study, &parameter, range, Some((&along, between)))?;
     let request = CurvesRequest { parameter, window, along, between };
     Ok(NativeAnswer::new(verbs.threshold_curves(&request)?))
 }

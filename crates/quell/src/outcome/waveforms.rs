@@ -63,9 +63,10 @@ fn table(done: &WaveformComparison, unit_of: impl Fn(Quantity) -> Option<&'stati
         let is_best =
             |column: &CostColumn| done.best(column).is_some_and(|best| std::ptr::eq(best, row));
         let averaged = row.averaged.as_ref().ok().map(|least| least.amplitude);
-        for (way, value) in
-            [(RankedBy::Averaging, averaged), (RankedBy::Exact, row.exact.clone().ok())]
-        {
+        for (way, value) in [
+            (RankedBy::Averaging, averaged),
+            (RankedBy::Exact, row.exact.as_ref().ok().map(|least| least.amplitude)),
+        ] {
             let best = by == way && is_best(&COLUMNS[0]);
             let _ = write!(text, "  {:>14}", cell(value, best));
         }
@@ -98,10 +99,12 @@ fn notes(done: &WaveformComparison, unit: Option<&str>) -> String {
         // The same reason is said once.
         let exact = row.exact.as_ref().err().filter(|why| Some(*why) != averaged.as_ref());
         let exact = exact.map(|why| format!("no exact amplitude: {why}"));
-        let until = row.averaged.as_ref().ok().and_then(|least| least.until);
-        let until = until
-            .map(|until| format!("by averaging unstable again from {}{unit} on", figure(until)));
-        [averaged, power, exact, until].into_iter().flatten()
+        let ends = [("exactly", row.exact.as_ref()), ("by averaging", row.averaged.as_ref())];
+        let [lost, until] = ends.map(|(by, least)| {
+            let end = least.ok().and_then(|least| least.until)?;
+            Some(format!("{by} unstable again from {}{unit} on", figure(end)))
+        });
+        [averaged, power, exact, lost, until].into_iter().flatten()
     };
     joined_notes(done.rows.iter().flat_map(|row| {
         let label = row.label();

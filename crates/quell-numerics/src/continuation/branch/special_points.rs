@@ -19,6 +19,9 @@ const GROWTH: f64 = 2.0;
 const FARTHEST: f64 = 2e-2;
 const LEAST_PART: f64 = 1e-2;
 
+/// Halvings of the interval in which the branch begins beyond a gap: its width is an error of a thousandth of the gap then.
+const HALVINGS: u32 = 10;
+
 /// Shares of the distance at which the state must be nearer to the grazing state, and by how much at most: like a square root, with a margin.
 /// A motion that jumps at the border by as much as it moves beyond it gives 0.63 and 0.75.
 const TENDING: [(f64, f64); 2] = [(0.25, 0.6), (0.5, 0.74)];
@@ -264,13 +267,40 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
                     && (side == towards || found.image.signature != grazing.image.signature)
                     && self.is_joined(grazing, &found, side)
                 {
-                    let gap = if away == nearest { 0.0 } else { away * width };
-                    return Some((found, gap));
+                    let gap = if away == nearest { 0.0 } else { self.gap(grazing, &found, side) };
+                    return Some((found, gap * width));
                 }
                 away *= GROWTH;
             }
         }
         None
+    }
+
+    /// The scaled distance beyond a grazing point at which the branch begins: from a solution on it halved towards the point.
+    fn gap(
+        &self,
+        grazing: &BranchSolution<F::Signature>,
+        found: &BranchSolution<F::Signature>,
+        side: f64,
+    ) -> f64 {
+        let (share, n) = (grazing.parameter(), grazing.unknowns.len() - 1);
+        let (mut none, mut begins) = (share, found.clone());
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (none + begins.parameter());
+            let part = (middle - share) / (begins.parameter() - share);
+            let pairs = grazing.unknowns.iter().zip(&begins.unknowns);
+            let guess: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
+            let far = distance(&grazing.unknowns[..n], &begins.unknowns[..n]);
+            let nearer = self.standing(&self.unscaled(&guess).0, middle, side);
+            let tends = |nearer: &BranchSolution<F::Signature>| {
+                distance(&grazing.unknowns[..n], &nearer.unknowns[..n]) <= far
+            };
+            match nearer.filter(tends) {
+                Some(nearer) => begins = nearer,
+                None => none = middle,
+            }
+        }
+        (begins.parameter() - share).abs()
     }
 
     /// Whether the state tends to the grazing state as the parameter tends to the grazing value.

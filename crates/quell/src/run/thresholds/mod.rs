@@ -35,7 +35,7 @@ use crate::quantity::bearable;
 use crate::study::SystemStudy;
 
 pub(crate) use answer::events_in_words;
-pub use window::{AMPLITUDE, window_of_amplitude};
+pub use window::{AMPLITUDE, window_of};
 
 /// Equal steps between the values at which runs are tried; two changes between neighbouring values that cancel are missed.
 pub const TRIED: u32 = 40;

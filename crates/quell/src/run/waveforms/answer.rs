@@ -4,12 +4,18 @@ use quell_model::Waveform;
 use quell_model::units::{Quantity, UnitSystem};
 use serde_json::Value as Json;
 
-use super::{COLUMNS, ComparedWaveform, WaveformComparison};
+use super::{COLUMNS, ComparedWaveform, LeastDither, WaveformComparison};
 use crate::contact_state::averages_are_a_start;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::stability::FAR;
 use crate::study::SystemStudy;
+
+/// The amplitude at which a range of quiet amplitudes ends, or why it has no value.
+fn until(found: &Result<LeastDither, String>, of: &str) -> Result<f64, String> {
+    let none = || format!("no larger amplitude makes it unstable again {of}");
+    found.clone()?.until.ok_or_else(none)
+}
 
 impl WaveformComparison {
     /// The comparison as JSON.
@@ -67,14 +73,13 @@ impl WaveformComparison {
             for column in &COLUMNS {
                 inner.known(column.name, column.quantity, row.averaged_value(column));
             }
-            let until = row.averaged.as_ref().map_err(Clone::clone).and_then(|least| {
-                least.until.ok_or_else(|| "no larger amplitude makes it unstable again".to_owned())
-            });
-            inner.known("until", Quantity::Force, until);
+            inner.known("until", Quantity::Force, until(&row.averaged, "by averaging"));
             for column in &COLUMNS {
                 let name = format!("exact_{}", column.name);
                 inner.known(&name, column.quantity, row.exact_value(column));
             }
+            let of = "up to the limit of the search";
+            inner.known("exact_until", Quantity::Force, until(&row.exact, of));
             inner
         });
         fields.plain("carrier", self.carrier).plain("ranked_by", self.ranked_by().name());
@@ -111,7 +116,9 @@ impl WaveformComparison {
         let averaged = COLUMNS.iter().map(|column| {
             (column.name.to_owned(), column.quantity, each(&|row| row.averaged_value(column)))
         });
-        let exact = ("exact_amplitude".to_owned(), Quantity::Force, each(&|row| row.exact.clone()));
+        let exact = ("exact_amplitude".to_owned(), Quantity::Force, {
+            each(&|row| Ok(row.exact.clone()?.amplitude))
+        });
         [duty].into_iter().chain(averaged).chain([exact]).collect()
     }
 }

@@ -25,7 +25,7 @@ pub struct WaveformCost {
     pub power: Result<f64, String>,
 }
 
-/// The least dither of one waveform that quenches by averaging.
+/// The least dither of one waveform that quenches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastDither {
     /// The amplitude.
@@ -47,8 +47,8 @@ pub struct ComparedWaveform {
     pub slow: bool,
     /// The least dither by averaging, or why no amplitude quenches.
     pub averaged: Result<LeastDither, String>,
-    /// The exact least amplitude at the study's frequency, or why it is unknown.
-    pub exact: Result<f64, String>,
+    /// The exact least dither at the study's frequency, or why it is unknown.
+    pub exact: Result<LeastDither, String>,
     /// The cost of unit amplitude.
     pub unit: WaveformCost,
     /// Why the average, which does not know the state of the contacts, differs from that with it at the least amplitude.
@@ -141,7 +141,7 @@ impl ComparedWaveform {
 
     /// A quantity at the exact least amplitude, or why it has no value.
     pub(crate) fn exact_value(&self, column: &CostColumn) -> Result<f64, String> {
-        (column.of)(self.exact.clone()?, &self.unit)
+        (column.of)(self.exact.clone()?.amplitude, &self.unit)
     }
 }
 

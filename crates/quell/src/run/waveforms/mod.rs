@@ -164,7 +164,7 @@ fn in_the_band() -> String {
 ///
 /// # Errors
 /// Why none is known.
-fn exact(system: &System, quiet_without: bool) -> Result<f64, String> {
+fn exact(system: &System, quiet_without: bool) -> Result<LeastDither, String> {
     if wave_reaches_the_band(system) {
         return Err(in_the_band());
     }
@@ -176,7 +176,7 @@ fn exact(system: &System, quiet_without: bool) -> Result<f64, String> {
     match found {
         Err(why) => Err(if cut_short { too_sensitive() } else { why.to_string() }),
         Ok(found) => match found.least() {
-            Ok(change) => Ok(change.amplitude),
+            Ok(change) => Ok(LeastDither { amplitude: change.amplitude, until: found.lost() }),
             Err(NotQuenched::Ends) if cut_short => Err(too_sensitive()),
             Err(why) => Err(why.to_string()),
         },
