@@ -1060,6 +1060,7 @@ class WaveformsColumns(Frozen):
     waveform_exact_power: npt.NDArray[np.float64]
     waveform_exact_root_mean_square: npt.NDArray[np.float64]
     waveform_exact_stroke: npt.NDArray[np.float64]
+    waveform_exact_until: npt.NDArray[np.float64]
     waveform_exact_velocity: npt.NDArray[np.float64]
     waveform_label: npt.NDArray[np.str_]
     waveform_off: npt.NDArray[np.float64]
