@@ -65,17 +65,22 @@ pub enum NoQuench {
     Averaging(AveragingError),
 }
 
-impl fmt::Display for NotQuenched {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::QuietWithout => {
-                "steady sliding is stable without this dither: it needs no dither to be"
-            }
+impl NotQuenched {
+    /// A description.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::QuietWithout => "steady sliding is stable without this dither",
             Self::NeverQuiet => {
                 "the base response becomes stable at no amplitude up to the limit of the search"
             }
             Self::Ends => "the base response ends before it becomes stable",
-        })
+        }
+    }
+}
+
+impl fmt::Display for NotQuenched {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.words())
     }
 }
 

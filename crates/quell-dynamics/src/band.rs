@@ -33,6 +33,12 @@ pub fn is_above_the_band(system: &System, period: f64) -> bool {
     vibration_frequency(system).is_some_and(|vibration| lowest > BAND_END * vibration)
 }
 
+/// Whether a motion that repeats after a number of dither periods, this time, is quiet, without slow motion of its own: in step with the
+/// dither, or with all its spectral lines above the band.
+pub(crate) fn is_quiet(system: &System, multiple: u32, period: f64) -> bool {
+    multiple == 1 || is_above_the_band(system, period)
+}
+
 /// Whether a motion with the period of the dither, common to all of its waves where there is one, may vibrate in the band itself: a run in
 /// step with it is then not necessarily quiet.
 pub fn dither_reaches_the_band(system: &System) -> bool {

@@ -2,7 +2,7 @@
 
 use quell_dynamics::motion::orbit::MotionThresholds;
 use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
+use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind, is_gap};
 
 use super::quiet::QuietAmplitudes;
 
@@ -97,13 +97,9 @@ impl AmplitudeBranch {
     }
 }
 
-/// Relative error of a threshold from which the amplitudes within it do not count as quiet: far above the error of an exact one. Next to a
-/// grazing of a law whose static level is above μ(0⁺) no response exists over a gap, which is its error.
-const WIDE: f64 = 1e-6;
-
-/// The amplitude from which it is certain that the base response is quiet, or up to which.
+/// The amplitude from which it is certain that the base response is quiet, or up to which: nothing within a gap counts as quiet.
 fn certain(amplitude: f64, error: f64, becomes_quiet: bool) -> f64 {
-    match (error > WIDE * amplitude.abs(), becomes_quiet) {
+    match (is_gap(amplitude, error), becomes_quiet) {
         (false, _) => amplitude,
         (true, true) => amplitude + error,
         (true, false) => amplitude - error,

@@ -125,11 +125,13 @@ pub fn judged_mass(system: &System) -> Option<OneMass> {
 
 /// The starts of runs of one mass.
 pub fn starts_of_mass(mass: &OneMass, states: &[Vec<f64>]) -> Vec<Start> {
-    let starts = states.iter().map(|state| {
-        let (displacement, velocity) = mass.of_state(state);
-        Start { time: 0.0, displacement, velocity }
-    });
-    starts.collect()
+    states.iter().map(|state| start_of_mass(mass, state)).collect()
+}
+
+/// The start of a run of one mass.
+pub(super) fn start_of_mass(mass: &OneMass, state: &[f64]) -> Start {
+    let (displacement, velocity) = mass.of_state(state);
+    Start { time: 0.0, displacement, velocity }
 }
 
 /// [`end_of_run`] of several starts; those under dither go on side by side.

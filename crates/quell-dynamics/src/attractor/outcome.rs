@@ -2,10 +2,10 @@
 
 use quell_model::{OneMass, System};
 
-use super::end_of_run::{FreeMotion, NoEnd, free_motion, judged_mass, starts_of_mass};
+use super::end_of_run::{FreeMotion, NoEnd, free_motion, judged_mass, start_of_mass};
 use super::measure::classified;
 use super::settings::AttractorSettings;
-use super::settle::{Patience, SettleOutcome, settle_many};
+use super::settle::{Patience, SettleOutcome, settle};
 use crate::motion::orbit::{NoMotionOrbit, settled, sliding_state};
 use crate::simulation::Stalled;
 
@@ -67,8 +67,7 @@ fn outcome_of_one_mass(
 ) -> Result<RunOutcome, NoEnd> {
     let settings = AttractorSettings::new(mass.belt()).map_err(NoEnd::NoSection)?;
     let stopped = |why: Stalled| NoEnd::of_mass(mass, &why);
-    let settled = settle_many(&settings, &starts_of_mass(mass, &[start.to_vec()]), Patience::SWEEP);
-    let settled = settled.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED));
+    let settled = settle(&settings, start_of_mass(mass, start), Patience::SWEEP);
     let settled = settled.map_err(stopped)?;
     if settings.is_autonomous() && settled.outcome == SettleOutcome::Base {
         // Unstable sliding is left, as by the judge.

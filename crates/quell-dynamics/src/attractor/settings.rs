@@ -4,7 +4,7 @@ use quell_model::Belt;
 
 use super::base_response::BaseResponse;
 use super::section::StroboscopicSection;
-use crate::band::is_above_the_band;
+use crate::band::is_quiet;
 use crate::orbit::NoOrbit;
 
 /// A belt, its stroboscopic section, and the base response under its dither, where it was found.
@@ -28,11 +28,9 @@ impl<'a> AttractorSettings<'a> {
         Ok(Self { belt, section, base: BaseResponse::of(belt, section) })
     }
 
-    /// Whether a response that repeats after a number of periods is quiet, without slow motion of its own: in step with the dither, or
-    /// with all its spectral lines above the band.
+    /// Whether a response that repeats after a number of periods is quiet, without slow motion of its own.
     pub(super) fn is_quiet(&self, periods: u32) -> bool {
-        let period = f64::from(periods) * self.section.period;
-        periods == 1 || is_above_the_band(&self.belt.system(), period)
+        is_quiet(&self.belt.system(), periods, f64::from(periods) * self.section.period)
     }
 
     /// Whether no dither acts.

@@ -27,6 +27,15 @@ use crate::simulation::Start;
 /// Number of steps in which the base response is first continued from sliding.
 const FIRST_STEPS: u32 = 8;
 
+/// Relative error of a threshold from which it is that of a gap: far above that of a located root, 10⁻¹¹ of a step, and below the gaps that
+/// were met, 10⁻³. With a larger value a gap would pass for an exact threshold, with a smaller one the reverse.
+const GAP: f64 = 1e-6;
+
+/// Whether the error of a threshold is a gap next to a grazing, in which no response is known.
+pub fn is_gap(value: f64, error: f64) -> bool {
+    error > GAP * value.abs()
+}
+
 /// The kind of bifurcation at a threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ThresholdKind {

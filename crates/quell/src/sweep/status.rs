@@ -2,6 +2,7 @@
 //!
 //! Published codes never change, because stores keep them: 32 was that of a measured structure, which is refused now.
 
+use quell_design::quench::NotQuenched;
 use quell_dynamics::response::{Uncertain, Undefined};
 use quell_linear::averaging::AveragingError;
 
@@ -65,7 +66,7 @@ pub enum Status {
     WithoutState = 36,
     /// The law is that of bristles, which never stick.
     NeverSticks = 37,
-    /// Sliding is stable without the first dither: there is nothing to quench.
+    /// Sliding is stable without the first dither.
     QuietWithoutDither = 38,
     /// No amplitude of the first dither up to the limit of the search makes the base response stable.
     NeverQuiet = 39,
@@ -251,16 +252,10 @@ impl Status {
                 "the value is known, but it averages the friction law without the state of its contact, which follows the dither here"
             }
             Self::NeverSticks => "bristles slip at any load, however slowly, and never stick",
-            Self::QuietWithoutDither => "sliding is stable without dither",
-            Self::NeverQuiet => {
-                "no amplitude up to twice that at which the contact begins to reverse makes the base response stable"
-            }
-            Self::StaysQuiet => {
-                "the base response stays stable up to twice the amplitude at which the contact begins to reverse"
-            }
-            Self::LoudAtLimit => {
-                "the base response is not stable at twice the amplitude at which the contact begins to reverse"
-            }
+            Self::QuietWithoutDither => NotQuenched::QuietWithout.words(),
+            Self::NeverQuiet => NotQuenched::NeverQuiet.words(),
+            Self::StaysQuiet => "the base response stays stable up to the limit of the search",
+            Self::LoudAtLimit => "the base response is not stable at the limit of the search",
             Self::NoReach => "the dither moves no contact",
             Self::NotOneMass => {
                 "the system is not one mass with a spring and a prescribed load on a surface of velocity v ≥ 0"

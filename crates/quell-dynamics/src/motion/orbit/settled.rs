@@ -21,7 +21,7 @@ use super::family::{NoImage, shot, time_of};
 use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, orbit_at, scale_of};
 use super::recurrence::{NEAR, ON_IT, SAME, distance, returns};
 use super::transient;
-use crate::band::is_above_the_band;
+use crate::band::is_quiet;
 use crate::decay::decays_at;
 use crate::orbit::OrbitVerdict;
 
@@ -76,9 +76,9 @@ pub struct SettledMotion {
 }
 
 impl SettledMotion {
-    /// Whether it is quiet, without slow motion of its own: in step with the dither, or with all its spectral lines above the band.
+    /// Whether it is quiet, without slow motion of its own.
     pub fn is_quiet(&self, system: &System) -> bool {
-        self.multiple == 1 || is_above_the_band(system, self.orbit.period)
+        is_quiet(system, self.multiple, self.orbit.period)
     }
 }
 

@@ -288,10 +288,8 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         for _ in 0..HALVINGS {
             let middle = 0.5 * (none + begins.parameter());
             let part = (middle - share) / (begins.parameter() - share);
-            let pairs = grazing.unknowns.iter().zip(&begins.unknowns);
-            let guess: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
             let far = distance(&grazing.unknowns[..n], &begins.unknowns[..n]);
-            let nearer = self.standing(&self.unscaled(&guess).0, middle, side);
+            let nearer = self.part_way((grazing, &begins), part, side);
             let tends = |nearer: &BranchSolution<F::Signature>| {
                 distance(&grazing.unknowns[..n], &nearer.unknowns[..n]) <= far
             };
@@ -313,13 +311,22 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         let n = grazing.unknowns.len() - 1;
         let far = distance(&grazing.unknowns[..n], &found.unknowns[..n]);
         TENDING.into_iter().any(|(part, most)| {
-            let pairs = grazing.unknowns.iter().zip(&found.unknowns);
-            let guess: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
-            let (state, _) = self.unscaled(&guess);
-            self.standing(&state, guess[n], side).is_some_and(|nearer| {
+            self.part_way((grazing, found), part, side).is_some_and(|nearer| {
                 distance(&grazing.unknowns[..n], &nearer.unknowns[..n]) <= most * far + 1e-8
             })
         })
+    }
+
+    /// The solution at a part of the way between two, sought from the straight line through them, with any signature.
+    fn part_way(
+        &self,
+        (from, to): (&BranchSolution<F::Signature>, &BranchSolution<F::Signature>),
+        part: f64,
+        side: f64,
+    ) -> MaybeSolution<F> {
+        let pairs = from.unknowns.iter().zip(&to.unknowns);
+        let guess: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
+        self.standing(&self.unscaled(&guess).0, *guess.last()?, side)
     }
 
     /// The border between two solutions of different signatures, neither of which can be extended, by bisection.

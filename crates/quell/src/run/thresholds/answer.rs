@@ -5,7 +5,7 @@ use quell_dynamics::motion::orbit::{
     MotionSignatureChange, MotionThreshold, family::MotionSignature,
 };
 use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::BranchEnding;
+use quell_dynamics::orbit::threshold::{BranchEnding, is_gap};
 use quell_dynamics::response::BAND_END;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -42,9 +42,6 @@ pub(super) fn end_of(ending: BranchEnding) -> Option<f64> {
         BranchEnding::LostTurning { furthest, .. } => Some(furthest),
     }
 }
-
-/// Relative error of a threshold from which a warning states it: sentences show six digits.
-const WIDE: f64 = 1e-5;
 
 impl Thresholds {
     /// A value of the parameter with its unit.
@@ -94,7 +91,7 @@ impl Thresholds {
         });
         let beyond = beyond_laws(study, |contact| self.slip[contact]);
         let local = self.local.iter().flat_map(|local| &local.thresholds);
-        let wide = local.filter(|found| found.error > WIDE * found.value.abs()).map(|found| {
+        let wide = local.filter(|found| is_gap(found.value, found.error)).map(|found| {
             let value = self.value(study, found.value);
             let [low, high] = [-1.0, 1.0].map(|side| found.value + side * found.error);
             let (low, high) = (self.value(study, low), self.value(study, high));

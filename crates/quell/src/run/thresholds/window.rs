@@ -36,46 +36,71 @@ pub fn window_of(
         let missing = Complaint::new(Fault::Missing, "dither", Origin::Whole, (), allowed);
         return Err(missing.into());
     }
-    let limit = match along {
-        None => limit_of(study, path, None),
-        Some((along, (low, high))) => (0..=PLACES)
+    let limit = |other| VariedAmplitude::of(study, path, other)?.limit(path);
+    let to = match (ends.1, along) {
+        (Some(to), _) => VariedAmplitude::of(study, path, None).map(|_| to),
+        (None, None) => limit(None),
+        (None, Some((along, (low, high)))) => (0..=PLACES)
             .map(|place| low + (high - low) * f64::from(place) / f64::from(PLACES))
-            .map(|value| limit_of(study, path, Some((along, value))))
-            .reduce(|one, other| Ok(one?.max(other?)))
-            .unwrap_or(Ok(0.0)),
+            .map(|value| limit(Some((along, value))))
+            .try_fold(0.0, |most: f64, limit| Ok(most.max(limit?))),
     };
-    Ok((ends.0.unwrap_or(0.0), ends.1.map_or(limit, Ok)?))
+    Ok((ends.0.unwrap_or(0.0), to?))
 }
 
-/// The limit of an amplitude, at a value of another parameter if one is given.
-fn limit_of(study: &SystemStudy, path: &str, other: Option<(&str, f64)>) -> Result<f64, Failure> {
-    let model = study.model();
-    let parameter = model.parameter(path)?;
-    let other = other.map(|(path, value)| Ok::<_, Failure>((model.parameter(path)?, value)));
-    let other = other.transpose()?;
-    let mut why_not = None;
-    let mut at = |value: f64| {
-        let values = [(parameter.clone(), value)].into_iter().chain(other.clone());
-        model.at(&values.collect::<Vec<_>>()).map_err(|why| why_not = Some(why.to_string())).ok()
-    };
-    let pair = PROBES.iter().find_map(|probe| Some((*probe, at(*probe)?, at(2.0 * probe)?)));
-    let Some((probe, one, two)) = pair else {
-        let allowed = format!("a path that can be varied: {}", why_not.unwrap_or_default());
-        return Err(Complaint::option("--parameter", path, allowed).into());
-    };
-    let of = |system: &System, input: usize| first_amplitude(system, input);
-    let input = (0..one.inputs.len()).find(|input| of(&one, *input) != of(&two, *input));
-    let Some((input, amplitude)) = input.and_then(|input| Some((input, of(&one, input)?))) else {
-        let allowed = "give it with --to; only the amplitude of a dither has a range of its own";
-        let origin = Origin::Argument("--from");
-        return Err(Complaint::new(Fault::Missing, "--from", origin, (), allowed).into());
-    };
-    match amplitude_limit(&one, input) {
-        Ok(limit) => Ok(limit * probe / amplitude),
-        Err(why) => Err(failed(
-            "thresholds",
-            format!("{path} has no range of its own ({why}); give --from and --to"),
-        )),
+/// A system whose dither of `input` has an amplitude that a path sets.
+struct VariedAmplitude {
+    system: System,
+    input: usize,
+    /// The amplitude of the equations over the number at the path.
+    unit: f64,
+}
+
+impl VariedAmplitude {
+    /// That of a path, at a value of another parameter if one is given.
+    ///
+    /// # Errors
+    /// A complaint about a path that is not the amplitude of a dither.
+    fn of(study: &SystemStudy, path: &str, other: Option<(&str, f64)>) -> Result<Self, Failure> {
+        let model = study.model();
+        let parameter = model.parameter(path)?;
+        let other = match other {
+            Some((path, value)) => Some((model.parameter(path)?, value)),
+            None => None,
+        };
+        let mut why_not = None;
+        let mut at = |value: f64| {
+            let values = [(parameter.clone(), value)].into_iter().chain(other.clone());
+            let system = model.at(&values.collect::<Vec<_>>());
+            system.map_err(|why| why_not = Some(why.to_string())).ok()
+        };
+        let pair = PROBES.iter().find_map(|probe| Some((*probe, at(*probe)?, at(2.0 * probe)?)));
+        let Some((probe, system, twice)) = pair else {
+            let allowed = format!("a path that can be varied: {}", why_not.unwrap_or_default());
+            return Err(Complaint::option("--parameter", path, allowed).into());
+        };
+        let changed = (0..system.inputs.len()).find_map(|input| {
+            let amplitude = first_amplitude(&system, input)?;
+            (first_amplitude(&twice, input) != Some(amplitude)).then_some((input, amplitude))
+        });
+        let Some((input, amplitude)) = changed else {
+            let allowed =
+                "give it with --to; only the amplitude of a dither has a range of its own";
+            let origin = Origin::Argument("--from");
+            return Err(Complaint::new(Fault::Missing, "--from", origin, (), allowed).into());
+        };
+        Ok(Self { system, input, unit: amplitude / probe })
+    }
+
+    /// The limit of the search for the quench amplitude, as a number at the path.
+    fn limit(&self, path: &str) -> Result<f64, Failure> {
+        match amplitude_limit(&self.system, self.input) {
+            Ok(limit) => Ok(limit / self.unit),
+            Err(why) => Err(failed(
+                "thresholds",
+                format!("{path} has no range of its own ({why}); give --from and --to"),
+            )),
+        }
     }
 }
 
