@@ -8,8 +8,7 @@
 
 use std::fmt;
 
-use quell_dynamics::motion::orbit::{NoMotionOrbit, sliding_state};
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::{NoOrbit, ThresholdKind, sliding_state};
 use quell_linear::averaging::{AveragingError, DitheredSystem};
 use quell_model::profile::Wave;
 use quell_model::system::{Input, InputTarget};
@@ -185,10 +184,10 @@ fn not_fast(system: &System) -> Option<f64> {
 }
 
 /// Why a system has no branch over the amplitude.
-fn no_branch(why: &NoMotionOrbit) -> NoQuench {
+fn no_branch(why: &NoOrbit) -> NoQuench {
     match why {
-        NoMotionOrbit::NoSliding(_) => NoQuench::NoSteadySliding,
-        NoMotionOrbit::Immobile(_) => NoQuench::Stalled,
+        NoOrbit::NoSliding(_) => NoQuench::NoSteadySliding,
+        NoOrbit::Immobile(_) => NoQuench::Stalled,
         _ => NoQuench::NoBaseResponse,
     }
 }

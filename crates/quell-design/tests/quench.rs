@@ -2,7 +2,7 @@
 
 use quell_design::least_dither::amplitude_branch;
 use quell_design::quench::{NoQuench, NotQuenched, quench};
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::ThresholdKind;
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 
 fn belt(kind: LawKind, damping: f64, velocity: f64, waveform: Waveform, ratio: f64) -> Belt {

@@ -1,9 +1,7 @@
 //! Derivatives of least amplitudes against differences of exact thresholds, located at neighbouring values of each number.
 
 use quell_design::least_dither::{LeastAmplitude, LeastAmplitudeSensitivity};
-use quell_dynamics::motion::orbit::motion_thresholds;
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::{OrbitVerdict, ThresholdKind, branch_thresholds};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::{Belt, Direction, Dither, LawKind, System, Waveform};
@@ -79,7 +77,7 @@ type SystemOf = fn(f64, &[f64]) -> Result<System, String>;
 /// The amplitude at which the base response becomes stable near another one.
 fn threshold(of: SystemOf, near: f64, numbers: &[f64]) -> (f64, ThresholdKind) {
     let at = |values: &[f64]| of(values[0], numbers);
-    let found = motion_thresholds(&at, (0.97 * near, 1.03 * near), 16, None).expect("a response");
+    let found = branch_thresholds(&at, (0.97 * near, 1.03 * near), 16, None).expect("a response");
     let quiet = found.thresholds.iter().filter(|found| found.becomes == Some(OrbitVerdict::Stable));
     let nearest = quiet.min_by(|a, b| (a.value - near).abs().total_cmp(&(b.value - near).abs()));
     nearest.map(|found| (found.value, found.kind)).expect("a threshold")
@@ -135,7 +133,7 @@ fn of_a_neimark_sacker_bifurcation_of_a_belt() {
 fn first_quiet(of: SystemOf, step: f64, numbers: &[f64]) -> f64 {
     let quiet = |amplitude: &f64| {
         let system = of(*amplitude, numbers).expect("a system");
-        let orbit = quell_dynamics::motion::orbit::base_motion(&system, 8);
+        let orbit = quell_dynamics::orbit::base_response(&system, 8);
         orbit.is_ok_and(|orbit| orbit.verdict() == OrbitVerdict::Stable)
     };
     (1..200).map(|k| step * f64::from(k)).find(quiet).expect("a quiet amplitude")

@@ -7,9 +7,9 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
-use quell_dynamics::motion::orbit::{MotionPlane, motion_curves};
-use quell_dynamics::orbit::threshold::local_thresholds;
-use quell_dynamics::orbit::{from_sliding, near};
+use quell_dynamics::orbit::{
+    ThresholdPlane, base_response, branch_thresholds, near, threshold_curves,
+};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 
 fn belt(waveform: Waveform, amplitude: f64) -> Belt {
@@ -26,8 +26,11 @@ fn belt(waveform: Waveform, amplitude: f64) -> Belt {
 }
 
 fn both_thresholds(belt: &Belt) -> usize {
-    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
-    local_thresholds(&at, 0.5, 10.5, 40).expect("followed").len()
+    let at = |values: &[f64]| {
+        let belt = belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
+        Ok(belt.system())
+    };
+    branch_thresholds(&at, (0.5, 10.5), 40, None).expect("followed").thresholds.len()
 }
 
 /// Both thresholds of the amplitude over the belt's velocity, and the number of points.
@@ -36,18 +39,18 @@ fn both_curves(belt: &Belt) -> usize {
         let belt = belt.with_belt_velocity(values[1]).map_err(|why| why.to_string())?;
         Ok(belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?.system())
     };
-    let plane = MotionPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5), points: 100 };
-    let found = motion_curves(&plane, 3).expect("curves").curves;
+    let plane = ThresholdPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5), points: 100 };
+    let found = threshold_curves(&plane, 3).expect("curves").curves;
     found.iter().map(|curve| curve.points.len()).sum()
 }
 
 fn orbits(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("orbits");
     group.sample_size(10).measurement_time(Duration::from_secs(3));
-    let slip = belt(Waveform::Sine, 5.0);
-    let orbit = from_sliding(&slip, 8).expect("an orbit");
+    let slip = belt(Waveform::Sine, 5.0).system();
+    let orbit = base_response(&slip, 8).expect("an orbit");
     group.bench_function("orbit from its own state (two period maps)", |bencher| {
-        bencher.iter(|| near(black_box(&slip), orbit.start, 1));
+        bencher.iter(|| near(black_box(&slip), &orbit.state, 1));
     });
     for waveform in [Waveform::Sine, Waveform::Square] {
         let belt = belt(waveform.clone(), 1.0);

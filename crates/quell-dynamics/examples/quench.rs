@@ -5,7 +5,7 @@
 use std::error::Error;
 use std::fmt::Write as _;
 
-use quell_dynamics::orbit::threshold::local;
+use quell_dynamics::orbit::branch_thresholds;
 use quell_dynamics::response::{ResponsePlan, Solver, respond};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Averaging, critical_amplitudes};
@@ -33,8 +33,11 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
     for change in critical_amplitudes(&belt, Averaging::Limit)? {
         writeln!(text, "averaging: {:?} from D = {:.4}", change.becomes, change.amplitude)?;
     }
-    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
-    let found = local(&at, 0.4, 0.6, 64)?;
+    let at = |values: &[f64]| {
+        let belt = belt.with_amplitude(0, values[0]).map_err(|wrong| wrong.to_string())?;
+        Ok(belt.system())
+    };
+    let found = branch_thresholds(&at, (0.4, 0.6), 64, None)?;
     for threshold in found.thresholds {
         writeln!(text, "exactly: {} at D = {:.7}", threshold.kind.name(), threshold.value)?;
     }

@@ -6,8 +6,7 @@
 
 use std::time::Instant;
 
-use quell_dynamics::motion::orbit::{MotionOrbit, base_motion};
-use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::{Orbit, OrbitVerdict, base_response};
 use quell_model::friction::Friction;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
@@ -110,7 +109,7 @@ fn main() {
         for (i, j) in (0..points).flat_map(|i| (0..points).map(move |j| (i, j))) {
             let (amplitude, velocity) = (at(masses.amplitudes, i), at(masses.velocities, j));
             let since = Instant::now();
-            let found = base_motion(&masses.system(amplitude, velocity), STEPS);
+            let found = base_response(&masses.system(amplitude, velocity), STEPS);
             let took = since.elapsed().as_secs_f64();
             slowest = slowest.max(took);
             let place = match &found {
@@ -123,7 +122,7 @@ fn main() {
             };
             counts[place] += 1;
             if prints {
-                let radius = found.as_ref().map_or(f64::NAN, MotionOrbit::radius);
+                let radius = found.as_ref().map_or(f64::NAN, Orbit::radius);
                 println!("{amplitude:.6} {velocity:.6} {place} {radius:.13} {:.3} ms", 1e3 * took);
             }
         }

@@ -1,9 +1,9 @@
 //! Event-exact motion under friction: pure functions of valid values, without files, threads, clocks or printing.
 //!
-//! [`motion`] is that of any system; the other modules have one mass on a moving belt with dither, [`response`] both.
+//! [`motion`] is that of any system, and takes [`simulation`] where it is that of one mass on a moving belt; what follows is about systems.
 //!
-//! * [`simulation`]: event-exact trajectories by adaptive Taylor series;
-//! * [`orbit`]: periodic responses, their Floquet multipliers, exact thresholds;
+//! * [`simulation`], [`motion`]: event-exact trajectories by adaptive Taylor series, and their derivatives;
+//! * [`orbit`]: periodic responses, their Floquet multipliers, exact thresholds, limit cycles;
 //! * [`attractor`]: where runs settle, rotation numbers, basins;
 //! * [`mean_friction`]: the average of friction with a state of its own, under a prescribed slip;
 //! * [`start`], [`response`]: initial states; the steady response of a run, its spectrum, residual vibration and costs.

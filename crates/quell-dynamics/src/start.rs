@@ -4,8 +4,7 @@ use std::fmt;
 
 use quell_model::Belt;
 
-use crate::orbit::NoOrbit;
-use crate::orbit::cycle::squeal;
+use crate::orbit::{CycleMapError, squeal};
 use crate::simulation::{Stalled, Start};
 
 /// The initial state of a study, at τ = 0.
@@ -79,8 +78,7 @@ fn squealing(belt: &Belt) -> Result<Start, NoSquealingStart> {
     }
     match squeal(belt) {
         Ok(found) => found.ok_or(NoSquealingStart::SettlesToSliding),
-        // Without dither a stalled engine is the only failure.
-        Err(NoOrbit::Stalled(stalled)) => Err(NoSquealingStart::Stalled(stalled)),
-        Err(_) => Err(NoSquealingStart::Stalled(Stalled::NEVER_STARTED)),
+        Err(CycleMapError::Stalled(stalled)) => Err(NoSquealingStart::Stalled(stalled)),
+        Err(CycleMapError::NoLimit) => Err(NoSquealingStart::SettlesToSliding),
     }
 }

@@ -5,6 +5,9 @@
 mod actuator_in_series;
 mod attractors;
 mod averaging_errata;
+#[path = "shared/orbits.rs"]
+mod belt_orbits;
+mod branch_thresholds;
 mod contact_states;
 mod criticality;
 mod curves;
@@ -19,7 +22,6 @@ mod measured_friction;
 mod motion_energy;
 mod motion_errata;
 mod motion_refusals;
-mod motion_thresholds;
 mod one_mass;
 mod orbits;
 mod own_laws;
@@ -33,9 +35,19 @@ mod threshold_windows;
 mod traps;
 mod work_balance;
 
+use quell_dynamics::orbit::{BranchEnding, SystemAt, Threshold, branch_thresholds};
 use quell_dynamics::response::{ResponsePlan, Solver, SteadyResponse, respond};
 use quell_dynamics::simulation::Start;
 use quell_model::Belt;
+
+/// Every threshold of the base response, whose branch must not be lost.
+fn local_thresholds(at: &SystemAt<'_>, window: (f64, f64), steps: u32) -> Vec<Threshold> {
+    let found = branch_thresholds(at, window, steps, None).expect("a response");
+    let is_lost =
+        matches!(found.ending, BranchEnding::Lost { .. } | BranchEnding::LostTurning { .. });
+    assert!(!is_lost, "{:?}", found.ending);
+    found.thresholds
+}
 
 /// The steady response of a belt from a start.
 fn response_of(belt: &Belt, start: Start, solver: &Solver) -> SteadyResponse {

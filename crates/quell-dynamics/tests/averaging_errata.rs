@@ -5,7 +5,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use quell_dynamics::orbit::threshold::{ThresholdKind, local_thresholds};
+use quell_dynamics::orbit::ThresholdKind;
 use quell_linear::averaging::{
     Averaging, Becomes, EverywhereStable, FastMotion, FastWave, closed_band, critical_amplitudes,
     effective, effective_by_quadrature, everywhere_stable_amplitude,
@@ -16,6 +16,8 @@ use quell_numerics::special::{dawson, erf, exp, ln};
 use quell_zoo::belt::{belt, decreasing_under, over_amplitudes};
 use quell_zoo::dither::{normal, sine};
 use quell_zoo::law::{MINIMUM, REFERENCE_VELOCITY, STATIC, build, dissertation};
+
+use crate::local_thresholds;
 
 const VM: f64 = REFERENCE_VELOCITY;
 const DIFFERENCE: f64 = STATIC - MINIMUM;
@@ -368,8 +370,7 @@ fn limit_of_high_frequency_under_normal_dither() {
         let orbit = |ratio: f64| {
             let belt = belt(damping, v, &law, vec![normal(waveform.clone(), 0.1 * ratio, ratio)]);
             let range = (0.85 * limit * ratio, limit * ratio);
-            let found = local_thresholds(&over_amplitudes(&belt), range.0, range.1, 10);
-            let found = found.unwrap_or_else(|why| panic!("{ratio} {waveform:?}: {why}"));
+            let found = local_thresholds(&over_amplitudes(&belt), range, 10);
             let hopf =
                 found.iter().find(|threshold| threshold.kind == ThresholdKind::NeimarkSacker);
             hopf.expect("a threshold in slip").value / ratio

@@ -1,12 +1,10 @@
 //! Whether bifurcations are supercritical: the exact coefficient of steady sliding against that of its flow, and against the
 //! vibrations next to thresholds.
 
-use quell_dynamics::motion::orbit::family::MotionFamily;
-use quell_dynamics::motion::orbit::{
-    MotionThreshold, free_cycle, motion_near, motion_thresholds, sliding_state,
-};
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::{
+    OrbitFamily, Threshold, ThresholdKind, branch_thresholds, free_cycle, near, sliding_state,
+};
 use quell_linear::criticality::of_steady_sliding;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
@@ -93,7 +91,7 @@ fn the_exact_coefficient_is_that_of_the_flow() {
         let exact = of_steady_sliding(&system).expect("a Hopf bifurcation");
         let motion = Motion::new(&system).expect("moves");
         let at = |_: &[f64]| Ok(system.clone());
-        let family = MotionFamily { at: &at, periods: 1, size: 4, scale: speed.abs() };
+        let family = OrbitFamily { at: &at, periods: 1, size: 4, scale: speed.abs() };
         let state = sliding_state(&system).expect("slides");
         let kind = BifurcationKind::NeimarkSacker;
         let flow = first_lyapunov(&family, &state, &[], kind, 2).expect("smooth");
@@ -193,9 +191,9 @@ fn two_masses(friction: Friction, speed: f64, damping: f64, amplitude: f64) -> S
 }
 
 /// The Neimark–Sacker threshold of the damping.
-fn torus(friction: &Friction, speed: f64) -> MotionThreshold {
+fn torus(friction: &Friction, speed: f64) -> Threshold {
     let at = |values: &[f64]| Ok(two_masses(friction.clone(), speed, values[0], 0.1));
-    let found = motion_thresholds(&at, (1.2, 0.1), 40, None).expect("a base response");
+    let found = branch_thresholds(&at, (1.2, 0.1), 40, None).expect("a base response");
     let mut thresholds = found.thresholds.into_iter();
     thresholds.find(|found| found.kind == ThresholdKind::NeimarkSacker).expect("a threshold")
 }
@@ -203,7 +201,7 @@ fn torus(friction: &Friction, speed: f64) -> MotionThreshold {
 /// Modulus of the critical part of a run after some periods, from a start with that part.
 fn carried(system: &System, orbit: &[f64], radius: f64, periods: u32) -> f64 {
     let at = |_: &[f64]| Ok(system.clone());
-    let family = MotionFamily { at: &at, periods: 1, size: 4, scale: 0.2 };
+    let family = OrbitFamily { at: &at, periods: 1, size: 4, scale: 0.2 };
     let image = family.image(orbit, &[], None).expect("an image");
     let decomposition = Decomposition::new(&image.derivative).expect("finite");
     let index = (0..4).filter(|&k| decomposition.values()[k].im > 0.0).max_by(|&a, &b| {
@@ -223,7 +221,7 @@ fn carried(system: &System, orbit: &[f64], radius: f64, periods: u32) -> f64 {
 
 /// (the orbit at a value, |λ| − 1).
 fn orbit_at(system: &System, guess: &[f64]) -> (Vec<f64>, f64) {
-    let orbit = motion_near(system, guess, 1).expect("an orbit");
+    let orbit = near(system, guess, 1).expect("an orbit");
     let radius = orbit.radius();
     (orbit.state, radius - 1.0)
 }

@@ -1,18 +1,24 @@
 //! Limit cycles without dither, and folds of responses.
 
-use quell_dynamics::attractor::{orbit_reached, outcome_of_run};
-use quell_dynamics::motion::orbit::ramped_motion;
-use quell_dynamics::orbit::cycle::{cycles, free_end};
-use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind, local};
-use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding};
+use quell_dynamics::attractor::outcome_of_run;
+use quell_dynamics::orbit::{
+    BranchEnding, CycleMapError, NoOrbit, Orbit, OrbitVerdict, ThresholdKind, base_response,
+    branch_thresholds, cycles, free_end, ramped_motion,
+};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Start, simulate};
 use quell_model::LawKind;
 use quell_zoo::belt::{self, over_amplitudes, undithered_belt};
 use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};
 
+use crate::belt_orbits::{along, orbit_reached, start_of};
+
 fn trivial(orbit: &Orbit) -> f64 {
-    orbit.multipliers.iter().map(|(re, im)| (re - 1.0).hypot(*im)).fold(f64::INFINITY, f64::min)
+    orbit
+        .multipliers
+        .iter()
+        .map(|multiplier| (multiplier - 1.0).norm())
+        .fold(f64::INFINITY, f64::min)
 }
 
 #[test]
@@ -23,14 +29,17 @@ fn squeal_is_an_orbit_of_known_period() {
     let cycle = &found[0];
     assert!((cycle.period - 9.600_930_182_576).abs() < 1e-10, "{}", cycle.period);
     assert!(cycle.is_free && cycle.residual < 1e-12);
-    assert_eq!((cycle.verdict(), cycle.count(EventKind::Stick)), (OrbitVerdict::Stable, 1));
+    assert_eq!(
+        (cycle.verdict(), cycle.signature.count(EventKind::Stick)),
+        (OrbitVerdict::Stable, 1)
+    );
     assert!(trivial(cycle) < 1e-9 && cycle.radius() < 1e-9, "{:?}", cycle.multipliers);
     // The mass moves with the belt from its stick to its release at x = μ_sF − 2ζv₀.
     let mut watch = EventRecorder::default();
-    simulate(&belt, cycle.start, cycle.period, 1e-12, &mut watch).expect("no stall");
+    simulate(&belt, start_of(cycle), cycle.period, 1e-12, &mut watch).expect("no stall");
     let travel = watch.events[1].displacement - watch.events[0].displacement;
     assert!((watch.events[1].displacement - 0.3995).abs() < 1e-12);
-    assert!((cycle.stick_fraction - travel / 0.05 / cycle.period).abs() < 1e-9);
+    assert!((along(&belt, cycle).stuck - travel / 0.05).abs() < 1e-9);
 }
 
 /// Beyond v₂ sliding is stable, and an unstable cycle in slip separates it from the squeal.
@@ -44,13 +53,13 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
         (squeal.verdict(), between.verdict()),
         (OrbitVerdict::Stable, OrbitVerdict::Unstable)
     );
-    assert!(between.is_pure_slip() && trivial(between) < 1e-9);
+    assert!(between.signature.is_pure_slip() && trivial(between) < 1e-9);
     // The other multiplier is the determinant, exp(−∮(2ζ + μ′N)).
-    assert!((between.radius() - (-between.damping).exp()).abs() < 1e-9);
+    assert!((between.radius() - (-along(&belt, between).damping).exp()).abs() < 1e-9);
     // Runs from either side of it diverge.
     for (share, sticks) in [(1.001, true), (0.999, false)] {
         let sliding = belt.steady_sliding();
-        let displacement = sliding + share * (between.start.displacement - sliding);
+        let displacement = sliding + share * (between.state[0] - sliding);
         let start = Start { time: 0.0, displacement, velocity: 0.0 };
         let mut watch = EventRecorder::default();
         simulate(&belt, start, 3000.0, 1e-12, &mut watch).expect("no stall");
@@ -63,7 +72,7 @@ fn an_unstable_cycle_lies_between_sliding_and_squeal() {
 fn a_continuum_of_free_oscillations_has_no_limit_cycle() {
     let belt = undithered_belt(0.0, 0.9767, law::coulomb(0.3, 0.3));
     assert_eq!(cycles(&belt), Ok(Vec::new()));
-    assert_eq!(free_end(&belt, Start::REST), Err(NoOrbit::NoLimit));
+    assert_eq!(free_end(&belt, Start::REST), Err(CycleMapError::NoLimit));
 }
 
 /// With Coulomb friction and a static level, oscillations that slip throughout decay and those that stick grow: in between, the
@@ -73,7 +82,7 @@ fn a_jump_of_the_cycle_map_is_not_a_cycle() {
     for velocity in [0.001, 0.01, 0.1] {
         let belt = undithered_belt(0.02, velocity, law::coulomb(0.75, 1.0));
         for cycle in cycles(&belt).expect("no stall") {
-            assert_eq!(cycle.count(EventKind::Stick), 1, "{velocity}: {cycle:?}");
+            assert_eq!(cycle.signature.count(EventKind::Stick), 1, "{velocity}: {cycle:?}");
             assert!(cycle.residual < 1e-9, "{velocity}: {cycle:?}");
         }
     }
@@ -106,7 +115,8 @@ fn cycles_end_at_their_belt_velocity() {
 #[test]
 fn a_fold_is_not_stepped_over() {
     let belt = belt::decreasing().with_dither(sine(1e-4, 1.0));
-    let found = local(&over_amplitudes(&belt), 1e-4, 3e-3, 20).expect("followed");
+    let found =
+        branch_thresholds(&over_amplitudes(&belt), (1e-4, 3e-3), 20, None).expect("followed");
     let fold = found.thresholds.iter().find(|threshold| threshold.kind == ThresholdKind::Fold);
     println!("{:?}\n{:?}", found.thresholds, found.ending);
     let fold = fold.expect("a fold");
@@ -119,7 +129,7 @@ fn a_fold_is_not_stepped_over() {
     );
     // Continuation from sliding reports this, rather than an orbit of another branch.
     let beyond = belt.undithered().with_dither(sine(2e-3, 1.0));
-    let why = from_sliding(&beyond, 8).expect_err("none");
+    let why = base_response(&beyond.system(), 8).expect_err("none");
     assert!(matches!(why, NoOrbit::Ends { share } if (share - 0.786).abs() < 1e-3), "{why}");
 }
 
@@ -128,12 +138,12 @@ fn a_fold_is_not_stepped_over() {
 fn squeal_under_dither_is_an_orbit_of_many_periods() {
     let belt = belt::decreasing().with_dither(sine(2.5, 10.0));
     let squeal = &cycles(&belt).expect("no stall")[0];
-    let orbit = orbit_reached(&belt, squeal.start).expect("an orbit");
+    let orbit = orbit_reached(&belt, start_of(squeal)).expect("an orbit");
     let tenth = orbit.period / (0.2 * std::f64::consts::PI);
     assert!((tenth - 10.0).abs() < 1e-9, "{tenth} periods of the dither");
-    assert!(orbit.count(EventKind::Stick) >= 1 && orbit.residual < 1e-9);
+    assert!(orbit.signature.count(EventKind::Stick) >= 1 && orbit.residual < 1e-9);
     assert_eq!(orbit.verdict(), OrbitVerdict::Stable);
-    assert!(orbit.multipliers[1].0.abs() < 1e-9);
+    assert!(orbit.multipliers[1].norm() < 1e-9);
 }
 
 /// A dither that grows slowly leads a run from rest to the base response; one that is switched on at once does not.

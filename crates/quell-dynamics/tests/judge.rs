@@ -2,13 +2,12 @@
 //! agree.
 
 use quell_dynamics::attractor::{
-    AttractorKind, AttractorSettings, Patience, SettleOutcome, measure, orbit_reached,
-    outcome_of_run, settle,
+    AttractorKind, AttractorSettings, Patience, SettleOutcome, measure, outcome_of_run, settle,
 };
-use quell_dynamics::motion::orbit::{sliding_state, squealing_state};
-use quell_dynamics::orbit::cycle::{FreeEnd, cycles, free_end, keeps_vibrating};
-use quell_dynamics::orbit::threshold::{self, local_thresholds};
-use quell_dynamics::orbit::{OrbitVerdict, from_sliding, near};
+use quell_dynamics::orbit::{
+    FreeEnd, OrbitVerdict, ThresholdKind, base_response, cycles, free_end, keeps_vibrating,
+    sliding_state, squealing_state,
+};
 use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::InitialState;
@@ -17,9 +16,9 @@ use quell_zoo::belt::{self, over_velocities, stribeck_under, undithered_belt};
 use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};
 
+use crate::belt_orbits::{orbit_near, orbit_reached, start_of};
 use crate::orbits::switches;
-
-use crate::response_of;
+use crate::{local_thresholds, response_of};
 
 /// A section that is a single state up to rounding closes after any number of periods; its period is one.
 #[test]
@@ -119,8 +118,8 @@ fn strong_friction_keeps_vibrating() {
 #[test]
 fn squeal_ends_at_the_hopf_point() {
     let belt = belt::dissertation(LawKind::Stribeck).at_speed(0.15);
-    let hopf = local_thresholds(&over_velocities(&belt), 0.15, 0.25, 20).expect("followed");
-    assert_eq!((hopf.len(), hopf[0].kind), (1, threshold::ThresholdKind::Hopf));
+    let hopf = local_thresholds(&over_velocities(&belt), (0.15, 0.25), 20);
+    assert_eq!((hopf.len(), hopf[0].kind), (1, ThresholdKind::Hopf));
     let hopf = hopf[0].value;
     assert!((hopf - 0.198_830_1).abs() < 1e-7, "{hopf}");
     for (share, squeals) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
@@ -162,13 +161,14 @@ fn a_marginal_orbit_is_undecided() {
     let still = undithered_belt(0.0, 0.0, law::formula("0.3"));
     let belt = still.with_dither(sine(3.0, 0.5));
     let guess = Start { time: 0.0, displacement: -1.300_01, velocity: 2.0 };
-    let orbit = near(&belt, guess, 1).expect("an orbit");
+    let orbit = orbit_near(&belt, guess, 1).expect("an orbit");
     assert!((orbit.radius() - 1.0).abs() < 1e-4, "{orbit:?}");
     assert_eq!(orbit.verdict(), OrbitVerdict::Undecided, "{orbit:?}");
     assert!(orbit.state_error > 1e3 * orbit.residual, "{orbit:?}");
     // An ordinary orbit is decided, with a small error.
     let belt = belt::decreasing().with_dither(sine(3.0, 10.0));
-    let orbit = near(&belt, Start { displacement: 0.29, ..Start::REST }, 1).expect("an orbit");
+    let orbit =
+        orbit_near(&belt, Start { displacement: 0.29, ..Start::REST }, 1).expect("an orbit");
     assert_eq!(orbit.verdict(), OrbitVerdict::Stable);
     assert!(orbit.state_error < 1e-10 && orbit.multiplier_error < 1e-9, "{orbit:?}");
 }
@@ -179,7 +179,7 @@ fn every_effect_is_recognised() {
     let solver = Solver::default();
     let slow = belt::stribeck();
     let fast = belt::decreasing();
-    let base = from_sliding(&fast.with_dither(sine(3.5, 10.0)), 8).expect("an orbit");
+    let base = base_response(&fast.with_dither(sine(3.5, 10.0)).system(), 8).expect("an orbit");
     for (belt, start, effect) in [
         (slow.with_dither(sine(0.6, 10.0)), Start::REST, Effect::Quenches),
         (slow.with_dither(sine(0.3, 10.0)), Start::REST, Effect::Reduces),
@@ -188,7 +188,7 @@ fn every_effect_is_recognised() {
         (slow.with_dither(sine(0.6, 0.9)), Start::REST, Effect::Increases),
         // Sliding is stable at v₀ = 1; the same dither causes squeal from rest and none from the base response.
         (fast.with_dither(sine(3.5, 10.0)), Start::REST, Effect::Causes),
-        (fast.with_dither(sine(3.5, 10.0)), base.start, Effect::Quiet),
+        (fast.with_dither(sine(3.5, 10.0)), start_of(&base), Effect::Quiet),
     ] {
         let found = response_of(&belt, start, &solver);
         assert_eq!(found.effect, effect, "{:?} {:?}", belt.dithers(), found.dithered.ending);
@@ -208,7 +208,7 @@ fn undithered_runs_end_as_the_cycle_map_predicts() {
     let settings = AttractorSettings::new(&belt).expect("a strobe");
     for (share, outcome) in [(1.001, SettleOutcome::Elsewhere), (0.999, SettleOutcome::Base)] {
         let sliding = belt.steady_sliding();
-        let displacement = sliding + share * (between.start.displacement - sliding);
+        let displacement = sliding + share * (between.state[0] - sliding);
         let start = Start { time: 0.0, displacement, velocity: 0.0 };
         let settled = settle(&settings, start, Patience::SWEEP).expect("no stall");
         assert_eq!(settled.outcome, outcome, "{share}");

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use quell_dynamics::orbit::{NoOrbit, from_sliding};
+use quell_dynamics::orbit::base_response;
 use quell_dynamics::response::{
-    SteadyFriction, measured_effective_friction, steady_effective_friction,
+    NoSteadyFriction, SteadyFriction, measured_effective_friction, steady_effective_friction,
 };
 use quell_dynamics::simulation::{Sampler, Start, simulate};
 use quell_linear::averaging::{Averaging, FastMotion, effective};
@@ -104,13 +104,14 @@ fn steady(belt: &Belt, v: f64) -> SteadyFriction {
 fn the_mean_displacement_balances_the_measured_friction() {
     let dithers = vec![tangential(Waveform::Sine, 0.3, 5.0)];
     let belt = zoo::belt::belt(0.005, 0.02, zoo::law::decreasing(), dithers);
-    let orbit = from_sliding(&belt, 8).expect("an orbit");
+    let orbit = base_response(&belt.system(), 8).expect("an orbit");
     let found = steady(&belt, 0.02);
     assert!(0.01 < found.stick_fraction && found.stick_fraction < 0.99, "{found:?}");
     let count = 20_000u16;
     let step = orbit.period / f64::from(count);
     let mut sampler = Sampler::new(0.0, step, usize::from(count));
-    simulate(&belt, orbit.start, orbit.period, 1e-12, &mut sampler).expect("runs");
+    simulate(&belt, Start::of_state(&orbit.state), orbit.period, 1e-12, &mut sampler)
+        .expect("runs");
     let mean =
         sampler.samples.iter().map(|sample| sample.displacement).sum::<f64>() / f64::from(count);
     assert!((mean - found.coefficient).abs() < 1e-7, "{mean} {found:?}");
@@ -182,5 +183,5 @@ fn friction_of_a_waveform_without_symmetry_depends_on_the_direction() {
         assert!((measured(v) - averaged(v)).abs() < 4e-3, "{v}: {} {}", measured(v), averaged(v));
     }
     let burst = of(Burst::new(Waveform::Sine, 2, 1).expect("a burst").into_waveform());
-    assert_eq!(steady_effective_friction(&burst, -0.2, 1e-12), Err(NoOrbit::NoMirror));
+    assert_eq!(steady_effective_friction(&burst, -0.2, 1e-12), Err(NoSteadyFriction::NoMirror));
 }

@@ -3,7 +3,6 @@
 
 use core::f64::consts::TAU;
 
-use quell_dynamics::orbit::threshold::local_thresholds;
 use quell_dynamics::response::{PEAK_FLOOR, Solver};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_model::{Belt, Waveform};
@@ -11,7 +10,7 @@ use quell_zoo::BeltExt;
 use quell_zoo::belt::{self, chapter_4, over_amplitudes, stribeck_under};
 use quell_zoo::dither::{normal, sine};
 
-use crate::response_of;
+use crate::{local_thresholds, response_of};
 
 const TOLERANCE: f64 = 1e-12;
 
@@ -114,8 +113,8 @@ fn a_cycle_coexists_with_stable_sliding() {
 fn figure_4_11_shows_the_sine() {
     let found = |waveform: Waveform| -> Vec<f64> {
         let belt = chapter_4().with_dither(normal(waveform, 0.1, 5.0));
-        let thresholds = local_thresholds(&over_amplitudes(&belt), 0.1, 0.99, 60);
-        thresholds.expect("followed").iter().map(|threshold| threshold.value).collect()
+        let thresholds = local_thresholds(&over_amplitudes(&belt), (0.1, 0.99), 60);
+        thresholds.iter().map(|threshold| threshold.value).collect()
     };
     for (waveform, known) in [
         (Waveform::Square, [0.553_840_4, 0.614_698_468]),

@@ -1,10 +1,7 @@
 //! Periodic responses against identities, differences and known thresholds.
 
-use quell_dynamics::attractor::{
-    RunOutcome, RunSwitches, StartOfRun, VariedRun, orbit_reached, values_tried,
-};
-use quell_dynamics::orbit::threshold::{Threshold, ThresholdKind, local_thresholds};
-use quell_dynamics::orbit::{Orbit, OrbitVerdict, from_sliding};
+use quell_dynamics::attractor::{RunOutcome, RunSwitches, StartOfRun, VariedRun, values_tried};
+use quell_dynamics::orbit::{Orbit, OrbitVerdict, Threshold, ThresholdKind, base_response};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
 use quell_model::{Belt, Dither, LawKind, System, Waveform};
 use quell_zoo::BeltExt;
@@ -12,16 +9,16 @@ use quell_zoo::belt::{chapter_4, decreasing_under, dissertation, over_amplitudes
 use quell_zoo::dither::{normal, tangential};
 use serde_json::Value;
 
+use crate::belt_orbits::{monodromy, orbit_reached};
+use crate::local_thresholds;
+
 const REFERENCE: &str = include_str!("../../../reference/quench_thresholds.json");
 
 /// Five-point differences of the period map.
 fn differences(belt: &Belt, orbit: &Orbit, h: f64) -> [[f64; 2]; 2] {
     let end = |dx: f64, dv: f64| {
-        let start = Start {
-            time: 0.0,
-            displacement: orbit.start.displacement + dx,
-            velocity: orbit.start.velocity + dv,
-        };
+        let start =
+            Start { time: 0.0, displacement: orbit.state[0] + dx, velocity: orbit.state[1] + dv };
         let end = simulate(belt, start, orbit.period, 1e-14, &mut ()).expect("no stall");
         [end.displacement, end.velocity]
     };
@@ -38,9 +35,9 @@ fn differences(belt: &Belt, orbit: &Orbit, h: f64) -> [[f64; 2]; 2] {
 #[test]
 fn saltation_at_reversals() {
     let belt = decreasing_under(Waveform::Square, 6.4);
-    let orbit = from_sliding(&belt, 16).expect("an orbit");
+    let orbit = base_response(&belt.system(), 16).expect("an orbit");
     assert_eq!(orbit.events.len(), 2, "{:?}", orbit.events);
-    let [[a, b], [c, d]] = orbit.monodromy;
+    let [[a, b], [c, d]] = monodromy(&orbit);
     assert!((a * d - b * c - 0.803_191_453_458_5).abs() < 1e-9, "{}", a * d - b * c);
     assert_eq!(orbit.verdict(), OrbitVerdict::Stable);
 }
@@ -52,14 +49,18 @@ fn multipliers_through_stick_and_reversal() {
     let squeal = Start { time: 0.0, displacement: -0.750_838_2, velocity: 0.0 };
     let squealing =
         orbit_reached(&decreasing_under(Waveform::Sine, 2.5), squeal).expect("an orbit");
-    assert!(squealing.count(EventKind::Stick) > 0 && squealing.count(EventKind::Reversal) > 0);
-    let (re, im) = squealing.multipliers[1];
-    assert!(re.hypot(im) < 1e-9, "{re} {im}");
-    let reversing = from_sliding(&decreasing_under(Waveform::Sine, 12.0), 16).expect("an orbit");
-    assert_eq!((reversing.count(EventKind::Stick), reversing.events.len()), (0, 2));
+    assert!(
+        squealing.signature.count(EventKind::Stick) > 0
+            && squealing.signature.count(EventKind::Reversal) > 0
+    );
+    let least = squealing.multipliers[1];
+    assert!(least.norm() < 1e-9, "{least}");
+    let reversing =
+        base_response(&decreasing_under(Waveform::Sine, 12.0).system(), 16).expect("an orbit");
+    assert_eq!((reversing.signature.count(EventKind::Stick), reversing.events.len()), (0, 2));
     for (d, orbit) in [(2.5, squealing), (12.0, reversing)] {
         let other = differences(&decreasing_under(Waveform::Sine, d), &orbit, 1e-5);
-        for (own, other) in orbit.monodromy.iter().flatten().zip(other.iter().flatten()) {
+        for (own, other) in monodromy(&orbit).iter().flatten().zip(other.iter().flatten()) {
             assert!((own - other).abs() < 1e-8, "{d}: {own} {other}");
         }
     }
@@ -82,8 +83,7 @@ fn thresholds_of_tangential_dither() {
         (Waveform::Square, 3.295_664_190, 6.313_857_946),
     ] {
         let found =
-            local_thresholds(&over_amplitudes(&decreasing_under(waveform, 1.0)), 0.5, 10.5, 40)
-                .expect("followed");
+            local_thresholds(&over_amplitudes(&decreasing_under(waveform, 1.0)), (0.5, 10.5), 40);
         let expected = [
             (lower, ThresholdKind::NeimarkSacker, OrbitVerdict::Unstable),
             (upper, ThresholdKind::Grazing, OrbitVerdict::Stable),
@@ -99,7 +99,7 @@ fn thresholds_of_normal_dither() {
         (Waveform::Sine, 0.710_299_1, 0.965_369_470, 2e-7),
     ] {
         let belt = chapter_4().with_dither(normal(waveform.clone(), 0.1, 5.0));
-        let found = local_thresholds(&over_amplitudes(&belt), 0.1, 0.99, 60).expect("followed");
+        let found = local_thresholds(&over_amplitudes(&belt), (0.1, 0.99), 60);
         assert_eq!(found.len(), 2, "{found:?}");
         for (threshold, value) in found.iter().zip([lower, upper]) {
             let off = (threshold.value / value - 1.0).abs();
@@ -124,8 +124,7 @@ fn quench_thresholds_of_the_reference() {
         let dither = tangential(waveform, average, number("frequency_ratio"));
         let belt = dissertation(law).at_speed(number("belt_velocity")).with_dither(dither);
         let (from, to) = (0.8 * average, 1.1 * average);
-        let found = local_thresholds(&over_amplitudes(&belt), from, to, 12)
-            .unwrap_or_else(|why| panic!("{case}: {why:?}"));
+        let found = local_thresholds(&over_amplitudes(&belt), (from, to), 12);
         let last = found.last().unwrap_or_else(|| panic!("no threshold: {case}"));
         assert_eq!(last.kind, ThresholdKind::Grazing);
         let off = (last.value / expected - 1.0).abs();
@@ -162,7 +161,8 @@ fn a_continuation_run_ends_at_the_end_of_its_window() {
     for amplitude in [9.95, 9.975, 10.0, 10.1, 10.35, 11.6] {
         let belt =
             decreasing_under(Waveform::Sine, 1.0).with_amplitude(0, amplitude).expect("valid");
-        let orbit = from_sliding(&belt, 8).unwrap_or_else(|why| panic!("{amplitude}: {why}"));
+        let orbit =
+            base_response(&belt.system(), 8).unwrap_or_else(|why| panic!("{amplitude}: {why}"));
         assert_eq!(orbit.verdict(), OrbitVerdict::Stable, "{amplitude}");
         assert!(orbit.residual < 1e-9, "{amplitude}: {}", orbit.residual);
     }

@@ -3,11 +3,11 @@
 //! Each reason comes from the engine itself, from a belt that provokes it. Built by hand are only those that no belt is known
 //! to provoke within a second.
 
-use quell_dynamics::attractor::{AttractorSettings, Patience, orbit_reached, settle};
-use quell_dynamics::motion::orbit::{MotionPlane, NoMotionOrbit, Open, OpenLine, motion_curves};
-use quell_dynamics::orbit::cycle::{cycles, free_end};
-use quell_dynamics::orbit::threshold::{NoThresholds, along, local, local_thresholds};
-use quell_dynamics::orbit::{NoOrbit, Orbit, Unsettled, common_period, from_sliding, near};
+use quell_dynamics::attractor::{AttractorSettings, NoEnd, Patience, Unsettled, settle};
+use quell_dynamics::orbit::{
+    BranchEnding, CycleMapError, NoImage, NoOrbit, Open, OpenLine, Orbit, ThresholdPlane,
+    base_response, branch_thresholds, cycles, free_end, threshold_curves,
+};
 use quell_dynamics::simulation::{Start, simulate, within};
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{Averaging, AveragingError, NoBand, closed_band, criterion};
@@ -19,6 +19,8 @@ use quell_zoo::belt::{
 };
 use quell_zoo::dither::{normal, sine};
 use quell_zoo::{BeltExt, law};
+
+use crate::belt_orbits::orbit_near;
 
 #[track_caller]
 fn assert_states(reason: &dyn std::error::Error, parts: &[&str]) {
@@ -35,6 +37,10 @@ fn at(displacement: f64, velocity: f64) -> Start {
 
 fn no_orbit(found: Result<Orbit, NoOrbit>) -> NoOrbit {
     found.expect_err("no orbit")
+}
+
+fn no_base_response(belt: &Belt) -> NoOrbit {
+    no_orbit(base_response(&belt.system(), 8))
 }
 
 /// At the natural frequency the base response folds at D = 0.0016.
@@ -56,55 +62,40 @@ fn lost() -> Belt {
 
 #[test]
 fn dithers_without_a_common_period() {
-    let none = common_period(&belt::stribeck()).expect_err("no dither");
+    let none = no_base_response(&belt::stribeck());
     assert_eq!(none, NoOrbit::NoDither);
     assert_states(&none, &["without dither"]);
     let dithers = vec![sine(0.1, 10.0), sine(0.1, 10.0 * 2f64.sqrt())];
-    let why = common_period(&belt::stribeck().with_dithers(dithers)).expect_err("√2 apart");
-    assert_eq!(why, NoOrbit::Incommensurate);
+    let why = no_base_response(&belt::stribeck().with_dithers(dithers));
+    assert_eq!(why, NoOrbit::NoImage(NoImage::NoPeriod));
     assert_states(&why, &["no common period"]);
 }
 
 #[test]
 fn shooting_that_does_not_close() {
     let belt = stribeck_under(Waveform::Sine, 0.25);
-    let why = no_orbit(near(&belt, at(-2.0, -1.0), 3));
-    let NoOrbit::NotConverged { steps, residual, at: place } = why else { panic!("{why:?}") };
-    let numbers = [
-        steps.to_string(),
-        format!("{residual:.1e}"),
-        place.displacement.to_string(),
-        place.velocity.to_string(),
-    ];
-    assert_states(&why, &numbers.each_ref().map(String::as_str));
-    let why = no_orbit(near(&belt, at(-2.0, 0.5), 1));
+    let why = no_orbit(orbit_near(&belt, at(-2.0, 0.0), 3));
+    let NoOrbit::NotConverged { steps, residual } = why else { panic!("{why:?}") };
+    assert_states(&why, &[&steps.to_string(), &format!("{residual:.1e}")]);
+    let why = no_orbit(orbit_near(&belt, at(-1.0, 0.5), 1));
     let NoOrbit::Degenerate { residual, .. } = why else { panic!("{why:?}") };
     assert_states(&why, &[&format!("{residual:.1e}"), "a multiplier is 1"]);
-    // Only a search that is bound to a branch can find another one.
-    let another = NoOrbit::Another { distance: 0.125, at: at(0.25, -0.5) };
-    assert_states(&another, &["0.25", "-0.5", "1.2e-1", "another one"]);
 }
 
 #[test]
 fn base_responses_that_end_or_are_lost() {
-    let why = no_orbit(from_sliding(&folding(2e-3), 8));
+    let why = no_base_response(&folding(2e-3));
     assert!(matches!(why, NoOrbit::Ends { .. }) && why.is_absence(), "{why:?}");
-    assert_states(&why, &["0.786", "of the dither", "exists beyond"]);
-    let why = no_orbit(from_sliding(&lost(), 8));
-    assert!(matches!(why, NoOrbit::LostOnTheWay { .. }) && !why.is_absence(), "{why:?}");
-    assert_states(&why, &["0.99998", "of the dither", "could not be followed"]);
+    assert_states(&why, &["78.6", "of the dither", "ends at"]);
+    let why = no_base_response(&lost());
+    assert!(matches!(why, NoOrbit::Lost { .. }) && !why.is_absence(), "{why:?}");
+    assert_states(&why, &["99.99", "of the dither", "could not be followed"]);
 }
 
 #[test]
 fn runs_that_end_on_no_orbit() {
-    let why = no_orbit(orbit_reached(&stribeck_under(Waveform::Sine, 0.2), Start::REST));
-    assert_eq!(why, NoOrbit::NoPeriod { most: 200 });
-    assert_states(&why, &["200 periods"]);
-    let why = no_orbit(orbit_reached(&belt::stribeck().at_speed(0.0), Start::REST));
-    assert_eq!(why, NoOrbit::AtRest);
-    assert_states(&why, &["comes to rest"]);
     let why = free_end(&continuum(), Start::REST).expect_err("a continuum");
-    assert_eq!(why, NoOrbit::NoLimit);
+    assert_eq!(why, CycleMapError::NoLimit);
     assert_states(&why, &["neither to a known limit cycle"]);
 }
 
@@ -118,13 +109,14 @@ fn runs_that_have_not_settled() {
     let belt = decreasing_under(Waveform::Sine, 4.3);
     let moving = unsettled(&belt, at(1.5, 0.0), Patience { periods: 20, ..Patience::SWEEP });
     assert_eq!(moving, Unsettled::Moving);
-    assert_states(&NoOrbit::Unsettled(moving), &["has not settled", "still moved"]);
+    assert_states(&NoEnd::Unsettled(moving), &["still moved"]);
     // On the unstable cycle between sliding and squeal.
     let belt = belt::decreasing();
-    let between = cycles(&belt).expect("no stall")[1].start;
+    let between = cycles(&belt).expect("no stall")[1].state.clone();
+    let between = Start::of_state(&between);
     let dwelling = unsettled(&belt, between, Patience::SWEEP);
     assert_eq!(dwelling, Unsettled::Dwelling);
-    assert_states(&NoOrbit::Unsettled(dwelling), &["has not settled", "unstable curve"]);
+    assert_states(&NoEnd::Unsettled(dwelling), &["unstable curve"]);
 }
 
 #[test]
@@ -133,8 +125,8 @@ fn runs_that_stall() {
     let stalled = within(0, || simulate(&belt, Start::REST, 1.0, 1e-12, &mut ()));
     let stalled = stalled.expect_err("no steps are left");
     assert_states(&stalled, &[stalled.why, "used up"]);
-    let why = no_orbit(within(0, || near(&belt, Start::REST, 1)));
-    assert!(matches!(why, NoOrbit::Stalled(other) if other.why == stalled.why), "{why:?}");
+    let why = no_orbit(within(0, || orbit_near(&belt, Start::REST, 1)));
+    assert!(matches!(why, NoOrbit::NoImage(NoImage::Stopped(_))), "{why:?}");
     assert_states(&why, &[stalled.why]);
     let squeal = within(0, || InitialState::Squealing.resolve(&belt::stribeck()));
     let why = squeal.expect_err("no steps are left");
@@ -158,35 +150,33 @@ fn squealing_starts_that_do_not_exist() {
 #[test]
 fn thresholds() {
     let belt = folding(1e-4);
-    let from = |from: f64| local(&over_amplitudes(&belt), from, 3e-3, 20).expect_err("nothing");
+    let over = over_amplitudes(&belt);
+    let from = |from: f64| branch_thresholds(&over, (from, 3e-3), 20, None).expect_err("nothing");
     let why = from(-1.5);
-    assert_eq!(why, NoThresholds::Invalid { value: -1.5 });
+    assert!(matches!(why, NoOrbit::NoImage(NoImage::Invalid(_))), "{why:?}");
     assert_states(&why, &["-1.5"]);
     let why = from(2e-3);
-    assert!(matches!(why, NoThresholds::Start(NoOrbit::Ends { .. })), "{why:?}");
-    assert_states(&why, &["0.786", "exists beyond"]);
-    let why = along(&over_amplitudes(&belt), (-3.0, Start::REST), 1.0, 5, 1);
-    let why = why.expect_err("a negative amplitude");
-    assert_eq!(why, NoThresholds::Start(NoOrbit::Invalid { value: -3.0 }));
-    assert_states(&why, &["-3"]);
-    let why = local_thresholds(&over_amplitudes(&lost()), 2.5, 2.9933, 8);
-    let why = why.expect_err("lost");
-    let NoThresholds::Lost { at } = why else { panic!("{why:?}") };
+    assert!(matches!(why, NoOrbit::Ends { .. }), "{why:?}");
+    assert_states(&why, &["78.6", "ends at"]);
+    let why = branch_thresholds(&over, (-3.0, 1.0), 5, Some((&[0.0, 0.0], 1)));
+    assert_states(&why.expect_err("a negative amplitude"), &["-3"]);
+    let found = branch_thresholds(&over_amplitudes(&lost()), (2.5, 2.9933), 8, None);
+    let ending = found.expect("a first response").ending;
+    let BranchEnding::Lost { at } = ending else { panic!("{ending:?}") };
     assert!((at - 2.99321).abs() < 1e-4, "{at}");
-    assert_states(&why, &[&format!("lost beyond {at}")]);
 }
 
 #[test]
 fn curves_of_thresholds() {
     let line = |belt: &Belt, window, between| -> OpenLine {
         let at = over_amplitude_and_velocity(belt);
-        let plane = MotionPlane { at: &at, window, between, points: 5 };
-        motion_curves(&plane, 2).expect("one line is followed").open[0].clone()
+        let plane = ThresholdPlane { at: &at, window, between, points: 5 };
+        threshold_curves(&plane, 2).expect("one line is followed").open[0].clone()
     };
     let why = line(&decreasing_under(Waveform::Sine, 1.0), (0.1, 3.0), (-1.0, 1.0));
     assert_states(&why, &["at -0.5", "belt_velocity"]);
     let why = line(&folding(1e-4), (2e-3, 3e-3), (0.9, 1.1));
-    let Open::Begin(NoMotionOrbit::Ends { .. }) = why.why else { panic!("{why}") };
+    let Open::Begin(NoOrbit::Ends { .. }) = why.why else { panic!("{why}") };
     assert_states(&why, &["at 0.95", "ends at 52.9"]);
     // No plane is known in which these are met at once.
     let line = |why: Open| OpenLine { along: 2.5, why };

@@ -1,9 +1,9 @@
 //! Small changes of motions whose contacts have states of their own: against differences, closed forms and the rigid contact.
 
-use quell_dynamics::motion::orbit::{base_motion, motion_near, settled, sliding_state};
 use quell_dynamics::motion::{
     ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionStart, MotionVariation,
 };
+use quell_dynamics::orbit::{base_response, near, settled, sliding_state};
 use quell_dynamics::simulation::EventKind;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
@@ -254,15 +254,15 @@ fn a_stiff_slider_has_the_multipliers_of_a_rigid_contact() {
 fn a_slider_that_slides_throughout_has_the_multipliers_of_a_rigid_contact_and_zero() {
     let dithers = || vec![dither(Direction::Tangential, 0.4, 5.0)];
     let law = (LawKind::StribeckExponential, &FALLING[..]);
-    let rigid = base_motion(&belt(0.3, law, None, dithers()), 8).expect("an orbit");
-    let slider = base_motion(&belt(0.3, law, Some(50.0), dithers()), 8).expect("an orbit");
+    let rigid = base_response(&belt(0.3, law, None, dithers()), 8).expect("an orbit");
+    let slider = base_response(&belt(0.3, law, Some(50.0), dithers()), 8).expect("an orbit");
     assert!(rigid.signature.is_pure_slip() && slider.signature.is_pure_slip());
     assert_eq!(slider.multipliers.len(), 3);
     for (a, b) in slider.multipliers.iter().zip(&rigid.multipliers) {
         assert!(modulus(*a - *b) < 1e-10, "{a} {b}");
     }
     assert!(modulus(slider.multipliers[2]) < 1e-12);
-    let near = motion_near(&belt(0.3, law, Some(50.0), dithers()), &slider.state, 1);
+    let near = near(&belt(0.3, law, Some(50.0), dithers()), &slider.state, 1);
     let near = near.expect("an orbit");
     assert!(near.state.iter().zip(&slider.state).all(|(a, b)| (a - b).abs() < 1e-9));
 }

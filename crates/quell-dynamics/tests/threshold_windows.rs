@@ -1,20 +1,20 @@
 //! Thresholds do not depend on the window in which they are searched: a wide window finds those of narrow windows that tile it.
 
-use quell_dynamics::orbit::family::BeltAt;
-use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind, local};
+use quell_dynamics::orbit::{BranchEnding, SystemAt, ThresholdKind, branch_thresholds};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{over_amplitudes, over_velocities};
 use quell_zoo::dither::tangential;
 
 /// Thresholds over a window that must be covered.
-fn thresholds(at: BeltAt<'_>, (from, to): (f64, f64)) -> Vec<(f64, ThresholdKind)> {
-    let found = local(at, from, to, 40).unwrap_or_else(|why| panic!("{why} {:?}", at(&[from])));
+fn thresholds(at: &SystemAt<'_>, (from, to): (f64, f64)) -> Vec<(f64, ThresholdKind)> {
+    let found = branch_thresholds(at, (from, to), 40, None)
+        .unwrap_or_else(|why| panic!("{why} {:?}", at(&[from])));
     assert_eq!(found.ending, BranchEnding::Covered, "from {from} to {to}: {:?}", at(&[from]));
     found.thresholds.iter().map(|threshold| (threshold.value, threshold.kind)).collect()
 }
 
-fn assert_tiled(over: BeltAt<'_>, (from, to): (f64, f64)) -> usize {
+fn assert_tiled(over: &SystemAt<'_>, (from, to): (f64, f64)) -> usize {
     let wide = thresholds(over, (from, to));
     let at = |k: u32| from + (to - from) * f64::from(k) / 4.0;
     let narrow: Vec<_> = (0..4).flat_map(|k| thresholds(over, (at(k), at(k + 1)))).collect();

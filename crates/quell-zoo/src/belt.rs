@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 
-use quell_model::{Belt, Dither, Friction, LawKind, System, Waveform};
+use quell_model::{Belt, Dither, Friction, InvalidValues, LawKind, System, Waveform};
 
 use crate::dither::{normal, tangential};
 use crate::{NamedModel, law};
@@ -36,22 +36,25 @@ pub trait BeltExt: Sized {
 }
 
 /// The belt over the amplitude of its first dither.
-pub fn over_amplitudes(belt: &Belt) -> impl Fn(&[f64]) -> Option<Belt> {
-    |values| belt.with_amplitude(0, values[0]).ok()
+pub fn over_amplitudes(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, String> {
+    |values| as_system(belt.with_amplitude(0, values[0]))
 }
 
 /// The belt over its velocity.
-pub fn over_velocities(belt: &Belt) -> impl Fn(&[f64]) -> Option<Belt> {
-    |values| belt.with_belt_velocity(values[0]).ok()
+pub fn over_velocities(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, String> {
+    |values| as_system(belt.with_belt_velocity(values[0]))
 }
 
 /// The belt over the amplitude of its first dither and its velocity.
 pub fn over_amplitude_and_velocity(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, String> {
     |values| {
         let belt = belt.with_belt_velocity(values[1]).map_err(|why| why.to_string())?;
-        let belt = belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
-        Ok(belt.system())
+        as_system(belt.with_amplitude(0, values[0]))
     }
+}
+
+fn as_system(belt: Result<Belt, InvalidValues>) -> Result<System, String> {
+    belt.map(|belt| belt.system()).map_err(|why| why.to_string())
 }
 
 impl BeltExt for Belt {
@@ -105,7 +108,7 @@ impl BeltExt for Belt {
     }
 }
 
-fn valid(belt: Result<Belt, quell_model::InvalidValues>) -> Belt {
+fn valid(belt: Result<Belt, InvalidValues>) -> Belt {
     belt.unwrap_or_else(|why| panic!("an invalid belt: {why:?}"))
 }
 

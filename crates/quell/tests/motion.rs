@@ -7,14 +7,13 @@ use quell::Study;
 use quell::run::simulate::{self, MotionRequest};
 use quell::run::system::start::read_state;
 use quell::verbs::verbs;
-use quell_dynamics::motion::orbit::{
-    MotionOrbit, base_motion, free_cycle, motion_thresholds, settled, settled_many,
-};
 use quell_dynamics::motion::{
     ContactPhase, LyapunovExponent, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder,
     MotionStart, RecordedEvent,
 };
-use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::{
+    Orbit, OrbitVerdict, base_response, branch_thresholds, free_cycle, settled, settled_many,
+};
 use quell_study::study::system::{SystemStart, SystemStudy};
 use serde_json::Value as Json;
 
@@ -126,7 +125,7 @@ fn complex(value: &Json) -> (f64, f64) {
 }
 
 /// Every multiplier of the reference is among those found.
-fn same_multipliers(name: &str, orbit: &MotionOrbit, wanted: &Json) -> f64 {
+fn same_multipliers(name: &str, orbit: &Orbit, wanted: &Json) -> f64 {
     assert_eq!(orbit.multipliers.len(), list(wanted).len(), "{name}");
     let nearest = |wanted: &Json| {
         let (re, im) = complex(wanted);
@@ -154,7 +153,7 @@ fn orbits_and_multipliers_are_those_of_the_reference() {
     for case in list(&reference()["orbits"]) {
         let name = case["name"].as_str().expect("a name");
         let study = study(case["study"].as_str().expect("a study"));
-        let base = base_motion(study.system(), 8);
+        let base = base_response(study.system(), 8);
         if let Err(why) = &base {
             println!("{name}: base: {why}");
         }
@@ -207,7 +206,7 @@ fn thresholds_are_those_of_the_reference() {
             model.at(&[(parameter.clone(), values[0])]).map_err(|why| why.to_string())
         };
         let window = (number(&case["from"]), number(&case["to"]));
-        let found = motion_thresholds(&at, window, 8, None);
+        let found = branch_thresholds(&at, window, 8, None);
         let found = found.unwrap_or_else(|why| panic!("{name}: {why}"));
         println!("{name}: {:?} {:?}", found.thresholds, found.ending);
         let wanted = number(&case["value"]);

@@ -7,10 +7,8 @@ use quell::run::orbit::{FoundMotion, Wanted, run as orbit_of};
 use quell::run::simulate::{self, MotionRequest, Simulation};
 use quell::run::thresholds::{ThresholdsRequest, run as thresholds};
 use quell::verbs::{moving_system, system_of};
-use quell_dynamics::motion::orbit::limit_cycles;
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::{OrbitVerdict, ThresholdKind, limit_cycles};
 use quell_dynamics::simulation::EventKind;
 use serde_json::Value;
 

@@ -12,7 +12,7 @@ use quell::study::{BeltStudy, SystemStudy};
 use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::{moving_system, system_of, verbs};
 use quell::{Failure, Study};
-use quell_dynamics::orbit::threshold::local;
+use quell_dynamics::orbit::branch_thresholds;
 use quell_linear::averaging::{Averaging, Becomes, CrossingKind, critical_amplitudes};
 use quell_linear::linear_cost::linear_cost;
 use quell_model::{Belt, Direction, Dither, Waveform};
@@ -242,8 +242,11 @@ fn held_samples_of_a_sine_have_its_exact_threshold() {
     let keys = format!("waveform = \"samples\"\nhold = \"zero\"\nvalues = [{}]", values.join(", "));
     let [held, sine] = [keys.as_str(), "waveform = \"sine\""].map(|keys| {
         let belt = study(&with("tangential", keys));
-        let at = |values: &[f64]| belt.belt().with_amplitude(0, values[0]).ok();
-        let found = local(&at, 0.9, 1.3, 8).expect("a branch");
+        let at = |values: &[f64]| {
+            let belt = belt.belt().with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
+            Ok(belt.system())
+        };
+        let found = branch_thresholds(&at, (0.9, 1.3), 8, None).expect("a branch");
         found.thresholds.iter().map(|threshold| threshold.value).collect::<Vec<f64>>()
     });
     assert!(!sine.is_empty());

@@ -1,6 +1,6 @@
 //! The amplitudes of a point at which the verdict on the base response changes, by the tables.
 
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::ThresholdKind;
 use quell_numerics::roots::{Closeness, find_root};
 
 use super::Atlas;

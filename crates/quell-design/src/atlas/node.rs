@@ -1,9 +1,10 @@
 //! The exact values of the surfaces, by the continuation of `thresholds` and the shooting of `orbit`.
 
-use quell_dynamics::orbit::family::Signature;
-use quell_dynamics::orbit::threshold::{BranchEnding, local};
-use quell_dynamics::orbit::{Orbit, from_sliding, near};
-use quell_dynamics::simulation::Start;
+use quell_dynamics::orbit::{
+    BASE_STEPS, BranchEnding, MotionSignature, Orbit, base_response, branch_thresholds, near,
+};
+use quell_dynamics::simulation::{Start, Variation, simulate};
+use quell_model::Belt;
 
 use super::point::AtlasPoint;
 
@@ -26,8 +27,8 @@ const LIMIT: f64 = 1.5;
 /// Least number of steps of that continuation.
 const STEPS: u32 = 16;
 
-/// Steps in which the dither grows from zero where the neighbours on the branch give no response.
-const GROWTH_STEPS: u32 = 8;
+/// Bound on the last terms of a step, relative to the load, of the period over which a response is measured: that of its orbit.
+const TOLERANCE: f64 = 1e-14;
 
 /// The neutral damping is found when it changes by less.
 const CLOSENESS: f64 = 1e-11;
@@ -68,6 +69,8 @@ struct SlippingResponse {
     start: Start,
     /// The least slip velocity.
     least: f64,
+    /// The mean of 2ζ + μ′N.
+    damping: f64,
 }
 
 /// The base response up to its grazing.
@@ -90,7 +93,7 @@ fn followed(point: &AtlasPoint) -> Result<UpToGrazing, NoAtlasNode> {
     let still = point.belt(0.0).map_err(|_| NoAtlasNode::NoBelt)?;
     let sliding = Start { displacement: still.steady_sliding(), ..Start::REST };
     let least = still.belt_velocity();
-    let mut before = vec![SlippingResponse { amplitude: 0.0, start: sliding, least }];
+    let mut before = vec![SlippingResponse { amplitude: 0.0, start: sliding, least, damping: 0.0 }];
     let mut share = FIRST;
     for _ in 0..RESPONSES {
         let last = before[before.len() - 1];
@@ -104,7 +107,7 @@ fn followed(point: &AtlasPoint) -> Result<UpToGrazing, NoAtlasNode> {
         let guess = between(&before, amplitude)
             .unwrap_or(Start { velocity: -least * amplitude / corner, ..sliding });
         if let Some(found) = slipping(point, amplitude, guess) {
-            before.push(found.0);
+            before.push(found);
             share = SHARE;
         } else if share < 1e-3 {
             break;
@@ -148,21 +151,32 @@ fn between(before: &[SlippingResponse], amplitude: f64) -> Option<Start> {
 }
 
 /// The response in slip near a state, if that is where shooting ends.
-fn slipping(point: &AtlasPoint, amplitude: f64, guess: Start) -> Option<(SlippingResponse, Orbit)> {
+fn slipping(point: &AtlasPoint, amplitude: f64, guess: Start) -> Option<SlippingResponse> {
     let belt = point.belt(amplitude).ok()?;
-    let orbit = near(&belt, guess, 1).ok().filter(Orbit::is_pure_slip)?;
-    let (least, _) = orbit.least_slip?;
-    Some((SlippingResponse { amplitude, start: orbit.start, least }, orbit))
+    let orbit = near(&belt.system(), &[guess.displacement, guess.velocity], 1).ok()?;
+    measured(&belt, amplitude, &orbit)
+}
+
+/// The response of an orbit; `None` of one that does not slip throughout.
+fn measured(belt: &Belt, amplitude: f64, orbit: &Orbit) -> Option<SlippingResponse> {
+    let start = Start::of_state(&orbit.state);
+    let mut variation = Variation::new(belt);
+    simulate(belt, start, orbit.period, TOLERANCE, &mut variation).ok()?;
+    let (least, _) = variation.least.filter(|_| orbit.signature.is_pure_slip())?;
+    let damping = variation.damping / orbit.period;
+    Some(SlippingResponse { amplitude, start, least: least.max(0.0), damping })
 }
 
 /// The amplitude at which the branch of the base response leaves slip.
 fn by_continuation(point: &AtlasPoint, corner: f64) -> Option<f64> {
     let belt = point.belt(0.0).ok()?;
-    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
-    let branch = local(&at, 0.0, LIMIT * corner, STEPS).ok()?;
+    let at = |values: &[f64]| {
+        belt.with_amplitude(0, values[0]).map(|belt| belt.system()).map_err(|why| why.to_string())
+    };
+    let branch = branch_thresholds(&at, (0.0, LIMIT * corner), STEPS, None).ok()?;
     let leaves = branch.changes.iter().find(|change| {
-        let pure = change.below.as_ref().is_some_and(Signature::is_pure_slip);
-        pure && !change.above.as_ref().is_some_and(Signature::is_pure_slip)
+        let pure = change.below.as_ref().is_some_and(MotionSignature::is_pure_slip);
+        pure && !change.above.as_ref().is_some_and(MotionSignature::is_pure_slip)
     });
     let touch = match branch.ending {
         BranchEnding::Touch { at } => Some(at),
@@ -211,12 +225,13 @@ fn mean_damping(point: &AtlasPoint, share: f64) -> Result<f64, NoAtlasNode> {
     let UpToGrazing { amplitude, before } = followed(point)?;
     let amplitude = share * amplitude;
     let shot = between(&before, amplitude).and_then(|guess| slipping(point, amplitude, guess));
-    let orbit = if let Some((_, orbit)) = shot {
-        orbit
+    let response = if let Some(response) = shot {
+        response
     } else {
         let belt = point.belt(amplitude).map_err(|_| NoAtlasNode::NoBelt)?;
-        let grown = from_sliding(&belt, GROWTH_STEPS).ok();
-        grown.filter(Orbit::is_pure_slip).ok_or(NoAtlasNode::NoResponse)?
+        let grown = base_response(&belt.system(), BASE_STEPS).ok();
+        let grown = grown.and_then(|orbit| measured(&belt, amplitude, &orbit));
+        grown.ok_or(NoAtlasNode::NoResponse)?
     };
-    Ok(orbit.damping / (2.0 * point.friction_damping * orbit.period))
+    Ok(response.damping / (2.0 * point.friction_damping))
 }

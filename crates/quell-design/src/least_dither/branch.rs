@@ -1,8 +1,6 @@
 //! The base response over the amplitude of a dither: where its verdict changes, and where it ends.
 
-use quell_dynamics::motion::orbit::MotionThresholds;
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind, is_gap};
+use quell_dynamics::orbit::{BranchEnding, BranchThresholds, OrbitVerdict, ThresholdKind, is_gap};
 
 use super::quiet::QuietAmplitudes;
 
@@ -36,7 +34,7 @@ pub struct AmplitudeBranch {
 }
 
 impl AmplitudeBranch {
-    pub(super) fn new(range: (f64, f64), found: &MotionThresholds) -> Self {
+    pub(super) fn new(range: (f64, f64), found: &BranchThresholds) -> Self {
         let thresholds = found.thresholds.iter().map(|threshold| {
             let sides = [threshold.was, threshold.becomes];
             (threshold.value, threshold.error, threshold.kind, sides)

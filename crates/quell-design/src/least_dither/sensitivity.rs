@@ -4,9 +4,9 @@
 //! point itself may move: its effect is of second order). At a tip, where two thresholds meet inside the box, the tip moves, and the
 //! derivatives are those of the amplitude of the tip: the operating point is determined by the two thresholds together.
 
-use quell_dynamics::motion::orbit::{MotionThreshold, motion_sensitivity, motion_thresholds};
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::{
+    OrbitVerdict, Threshold, ThresholdKind, branch_thresholds, sensitivity_of_threshold,
+};
 use quell_model::System;
 
 /// Half the window in which the threshold is located again, relative to the amplitude.
@@ -75,7 +75,7 @@ impl LeastAmplitude<'_> {
         near.retain(|threshold| (threshold.value - self.amplitude).abs() <= MEETS * self.amplitude);
         let deciding = &near[self.deciding(&near, MEETS)?];
         // Of the thresholds that meet at a tip, each changes the verdict on one side alone, or both on one side.
-        let other = |threshold: &&MotionThreshold| {
+        let other = |threshold: &&Threshold| {
             threshold.kind != deciding.kind || threshold.contacts != deciding.contacts
         };
         let meets = near.iter().find(other).map(|threshold| (place, threshold));
@@ -83,15 +83,15 @@ impl LeastAmplitude<'_> {
     }
 
     /// The thresholds near the amplitude at an operating point.
-    fn thresholds_at(&self, point: &[f64]) -> Result<Vec<MotionThreshold>, String> {
+    fn thresholds_at(&self, point: &[f64]) -> Result<Vec<Threshold>, String> {
         let at = |values: &[f64]| (self.at)(values[0], point, self.numbers);
         let window = (self.amplitude * (1.0 - WINDOW), self.amplitude * (1.0 + WINDOW));
-        let found = motion_thresholds(&at, window, STEPS, None).map_err(|why| why.to_string())?;
+        let found = branch_thresholds(&at, window, STEPS, None).map_err(|why| why.to_string())?;
         Ok(found.thresholds)
     }
 
     /// The threshold nearest to the amplitude at which the base response becomes stable.
-    fn deciding(&self, found: &[MotionThreshold], within: f64) -> Result<usize, String> {
+    fn deciding(&self, found: &[Threshold], within: f64) -> Result<usize, String> {
         let distance = |place: &usize| (found[*place].value - self.amplitude).abs();
         (0..found.len())
             .filter(|place| found[*place].becomes == Some(OrbitVerdict::Stable))
@@ -105,8 +105,8 @@ impl LeastAmplitude<'_> {
     fn derivatives(
         &self,
         point: &[f64],
-        deciding: &MotionThreshold,
-        meets: Option<(usize, &MotionThreshold)>,
+        deciding: &Threshold,
+        meets: Option<(usize, &Threshold)>,
     ) -> Result<LeastAmplitudeSensitivity, String> {
         let mut parameters = vec![deciding.value];
         let mut sizes = vec![deciding.value];
@@ -125,11 +125,11 @@ impl LeastAmplitude<'_> {
             }
             (self.at)(values[0], &point, &values[determined..])
         };
-        let mut both: Vec<&MotionThreshold> =
+        let mut both: Vec<&Threshold> =
             [deciding].into_iter().chain(meets.map(|(_, other)| other)).collect();
         // Either becomes quiet on one side of a tip: the one of a contact is named first.
         both.sort_by_key(|threshold| threshold.contacts.is_empty());
-        let found = motion_sensitivity(&at, &both, &parameters, &sizes);
+        let found = sensitivity_of_threshold(&at, &both, &parameters, &sizes);
         let found = found.map_err(|why| why.to_string())?;
         let derivatives = found.derivatives.into_iter().map(|rates| match rates {
             Ok(rates) => Ok(rates[0]),

@@ -1,10 +1,10 @@
 //! Any linear structure with friction contacts as one whose dither is designed.
 
 use quell_dynamics::attractor::{RunOutcome, SWITCH_CLOSENESS, VariedRun, values_tried};
-use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoMotionOrbit, base_motion, motion_thresholds, sliding_verdict, squealing_state,
+use quell_dynamics::orbit::{
+    NoOrbit, Orbit, OrbitVerdict, base_response, branch_thresholds, sliding_verdict,
+    squealing_state,
 };
-use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{BAND_END, vibration_frequency};
 use quell_linear::averaging::{AveragingError, Becomes, DitheredSystem};
 use quell_linear::driven_point::DrivenPoint;
@@ -151,8 +151,8 @@ impl SystemPlant<'_> {
     }
 
     /// The base response under an amplitude.
-    fn base(system: &System) -> Result<MotionOrbit, String> {
-        base_motion(system, GROWTH_STEPS).map_err(in_words)
+    fn base(system: &System) -> Result<Orbit, String> {
+        base_response(system, GROWTH_STEPS).map_err(in_words)
     }
 }
 
@@ -213,13 +213,13 @@ pub(super) fn quiet_changes(
 /// `thresholds`.
 ///
 /// # Errors
-/// [`NoMotionOrbit`] if there is no base response at the least amplitude.
+/// [`NoOrbit`] if there is no base response at the least amplitude.
 pub fn amplitude_branch(
     at: &dyn Fn(f64) -> Result<System, String>,
     range: (f64, f64),
     steps: u32,
-) -> Result<AmplitudeBranch, NoMotionOrbit> {
-    let found = motion_thresholds(&|values: &[f64]| at(values[0]), range, steps, None)?;
+) -> Result<AmplitudeBranch, NoOrbit> {
+    let found = branch_thresholds(&|values: &[f64]| at(values[0]), range, steps, None)?;
     Ok(AmplitudeBranch::new(range, &found))
 }
 

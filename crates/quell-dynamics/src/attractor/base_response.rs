@@ -7,14 +7,13 @@
 //!
 //! Without dither the response is steady sliding, x = μ(v₀)F, and M is that of x″ + (2ζ + μ′(v₀)F)x′ + x = 0 in closed form.
 
-use quell_model::Belt;
+use quell_model::{Belt, System};
+use quell_numerics::continuation::{multipliers, spectral_radius};
+use quell_numerics::matrix::Matrix;
 
 use super::section::StroboscopicSection;
-use crate::orbit::{Matrix2, NoOrbit, Orbit, OrbitVerdict, from_sliding, multipliers_of};
-
-/// Least number of continuation steps of the dither from zero to its amplitude. Steps are shortened where the branch bends; a
-/// pair of folds within one step would be missed, and more steps only take longer.
-pub(super) const STEPS: u32 = 8;
+use crate::orbit::{BASE_STEPS, NoOrbit, Orbit, OrbitVerdict, base_response};
+use crate::simulation::Matrix2;
 
 /// The base response.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,9 +35,13 @@ impl BaseResponse {
     ///
     /// # Errors
     /// [`NoOrbit`] if shooting does not find it.
-    pub(super) fn of(belt: &Belt, section: StroboscopicSection) -> Result<Self, NoOrbit> {
+    pub(super) fn of(
+        system: &System,
+        belt: &Belt,
+        section: StroboscopicSection,
+    ) -> Result<Self, NoOrbit> {
         if section.dithered {
-            return Ok(Self::of_orbit(&from_sliding(belt, STEPS)?));
+            return Self::of_orbit(&base_response(system, BASE_STEPS)?);
         }
         let slope = belt.friction().slope(belt.belt_velocity());
         let damping = belt.damping_rate(slope, belt.normal_load());
@@ -47,9 +50,15 @@ impl BaseResponse {
         Ok(Self::new((belt.steady_sliding(), 0.0), &matrix, radius))
     }
 
-    fn of_orbit(orbit: &Orbit) -> Self {
-        let state = (orbit.start.displacement, orbit.start.velocity);
-        Self { verdict: orbit.verdict(), ..Self::new(state, &orbit.monodromy, orbit.radius()) }
+    fn of_orbit(orbit: &Orbit) -> Result<Self, NoOrbit> {
+        let (&[displacement, velocity], Some(monodromy)) =
+            (orbit.state.as_slice(), &orbit.monodromy)
+        else {
+            return Err(NoOrbit::NoDither);
+        };
+        let matrix = [0, 1].map(|i| [0, 1].map(|j| monodromy[(i, j)]));
+        let base = Self::new((displacement, velocity), &matrix, orbit.radius());
+        Ok(Self { verdict: orbit.verdict(), ..base })
     }
 
     fn new((displacement, velocity): (f64, f64), matrix: &Matrix2, radius: f64) -> Self {
@@ -96,8 +105,9 @@ fn flow(delta: f64, t: f64) -> Matrix2 {
 
 /// Spectral radius of a period map.
 fn radius(matrix: &Matrix2) -> f64 {
-    let [(re, im), _] = multipliers_of(matrix);
-    libm::hypot(re, im)
+    let found = multipliers(&Matrix::from_fn(2, 2, |i, j| matrix[i][j]));
+    // A matrix that is not finite has no eigenvalues.
+    found.map_or(f64::INFINITY, |found| spectral_radius(&found))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 use super::measure::{Attractor, AttractorKind, measure};
 use super::settings::AttractorSettings;
 use super::settle::{BlockSummary, SettleOutcome, Settled};
-use crate::orbit::Unsettled;
+use super::unsettled::Unsettled;
 use crate::simulation::Stalled;
 
 /// Difference of centre, size and shape, relative to the size, within which two sections belong to one attractor: three times

@@ -10,12 +10,12 @@ use super::measure::{Attractor, AttractorKind, measure};
 use super::settings::AttractorSettings;
 use super::settle::{Patience, Settled, settle_many};
 use super::system_attractor::{MotionKind, SAME, SystemAttractor};
-use crate::motion::orbit::{
-    BASE_STEPS, CycleSamples, MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion,
+use super::unsettled::Unsettled;
+use crate::motion::{Immobile, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped};
+use crate::orbit::{
+    BASE_STEPS, CycleSamples, NoCycle, NoOrbit, Orbit, OrbitVerdict, SettledMotion, base_response,
     displaced, free_cycle, settled, settled_many, sliding_state,
 };
-use crate::motion::{Immobile, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped};
-use crate::orbit::{NoOrbit, OrbitVerdict, Unsettled};
 use crate::simulation::{Stalled, Start};
 
 /// Digits of a time in a message.
@@ -49,12 +49,10 @@ pub enum NoEnd {
     Interrupted(Box<MotionStopped>),
     /// The dithers have no common period.
     NoPeriod,
-    /// The section of one mass has no base response to compare with.
-    NoSection(NoOrbit),
     /// A run of one mass had not settled.
     Unsettled(Unsettled),
-    /// No periodic motion under dither was found.
-    NoOrbit(NoMotionOrbit),
+    /// No periodic motion under dither was found, or of one mass no base response to compare with.
+    NoOrbit(NoOrbit),
     /// No limit cycle was found.
     NoCycle(NoCycle),
     /// Without dither the run is near an unstable limit cycle of this period, which it leaves at the slightest disturbance.
@@ -70,7 +68,7 @@ impl NoEnd {
     /// A run of one mass had not settled; where the base response, to which it may converge, was not found, for that reason.
     pub(super) fn unsettled(settings: &AttractorSettings<'_>, settled: &Settled) -> Self {
         match &settings.base {
-            Err(why) if !why.is_absence() => Self::NoSection(*why),
+            Err(why) if !why.is_absence() => Self::NoOrbit(why.clone()),
             _ => Self::Unsettled(settled.why().unwrap_or(Unsettled::Moving)),
         }
     }
@@ -85,7 +83,6 @@ impl fmt::Display for NoEnd {
             Self::Immobile(why) => why.fmt(f),
             Self::Interrupted(why) => why.fmt(f),
             Self::NoPeriod => f.write_str("the dithers have no common period"),
-            Self::NoSection(why) => why.fmt(f),
             Self::Unsettled(why) => f.write_str(why.about()),
             Self::NoOrbit(why) => why.fmt(f),
             Self::NoCycle(why) => why.fmt(f),
@@ -159,7 +156,7 @@ fn ends_of_one_mass(
 ) -> Vec<Result<EndOfRun, NoEnd>> {
     let settings = match AttractorSettings::new(mass.belt()) {
         Ok(settings) => settings,
-        Err(why) => return vec![Err(NoEnd::NoSection(why)); starts.len()],
+        Err(why) => return vec![Err(NoEnd::NoOrbit(why)); starts.len()],
     };
     let settled = settle_many(&settings, &starts_of_mass(mass, starts), Patience::SWEEP);
     let end = |settled: Result<Settled, Stalled>| {
@@ -236,7 +233,7 @@ fn under_dither(
     system: &System,
     row: &[f64],
     start: &[f64],
-    found: Result<SettledMotion, NoMotionOrbit>,
+    found: Result<SettledMotion, NoOrbit>,
 ) -> Result<EndOfRun, NoEnd> {
     match found {
         Ok(found) => {
@@ -249,7 +246,7 @@ fn under_dither(
             let base = (multiple == 1).then(|| is_base(system, &orbit.state)).flatten();
             Ok(EndOfRun { attractor: SystemAttractor { base, quiet, ..seen }, periods })
         }
-        Err(NoMotionOrbit::Unsettled { periods, mut last, is_steady: true }) => {
+        Err(NoOrbit::Unsettled { periods, mut last, is_steady: true }) => {
             let length = MEASURED * period(system).ok_or(NoEnd::NoPeriod)?;
             let state = last.last().cloned().unwrap_or_else(|| start.to_vec());
             last.reverse();
@@ -263,7 +260,7 @@ fn under_dither(
 
 /// Whether a motion in step with the dither is the base response; `None` where that is not known.
 fn is_base(system: &System, state: &[f64]) -> Option<bool> {
-    let base = base_motion(system, BASE_STEPS).ok()?;
+    let base = base_response(system, BASE_STEPS).ok()?;
     let size = state.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let off = base.state.iter().zip(state).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
     Some(off <= SAME * size)
@@ -272,7 +269,7 @@ fn is_base(system: &System, state: &[f64]) -> Option<bool> {
 /// The motion without dither on which a run ends.
 pub(super) enum FreeMotion {
     /// A limit cycle.
-    Cycle(MotionOrbit),
+    Cycle(Orbit),
     /// Rest or steady sliding, with its state.
     Rest(Vec<f64>),
 }
@@ -310,7 +307,7 @@ fn on_free_motion(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRu
 }
 
 /// The states of an orbit at whole periods of the dither.
-fn at_periods(system: &System, orbit: &MotionOrbit, multiple: u32) -> Result<Vec<Vec<f64>>, NoEnd> {
+fn at_periods(system: &System, orbit: &Orbit, multiple: u32) -> Result<Vec<Vec<f64>>, NoEnd> {
     let motion = Motion::new(system).map_err(NoEnd::Immobile)?;
     let mut from = MotionStart { time: 0.0, state: orbit.state.clone() };
     let mut states = vec![orbit.state.clone()];

@@ -7,17 +7,15 @@
 //! to have crossed every gap: a motion that creeps along a nearly locked curve may still converge to a locked orbit. Limit: an
 //! orbit of more than `MOST_PERIODS` periods is not distinguished from a curve.
 
-use quell_model::Belt;
 use quell_numerics::roots::{Closeness, find_root};
 
 use super::average::Moments;
-use super::base_response::STEPS;
 use super::block_observer::BlockObserver;
 use super::rotation::{Rotation, samples_per_orbit_period, samples_per_period};
 use super::settings::AttractorSettings;
-use super::settle::{ONE_STATE, Patience, SettleOutcome, Settled, block, settle};
-use crate::orbit::cycle::{FreeEnd, free_end};
-use crate::orbit::{NoOrbit, Orbit, OrbitVerdict, Unsettled, from_sliding, near};
+use super::settle::{ONE_STATE, SettleOutcome, Settled, block};
+use super::unsettled::Unsettled;
+use crate::orbit::{Orbit, OrbitVerdict, near};
 use crate::simulation::{DEFAULT_TOLERANCE, Observer, Segment, Stalled, Start, simulate};
 
 /// Most periods of a closed orbit: the record holds five returns of an orbit of this length. A longer orbit is classified as a
@@ -247,7 +245,7 @@ fn elsewhere(
     let (kind, state, periods) = match records(settings, state)? {
         RecordFinding::Orbit(periods, orbit) => {
             let kind = AttractorKind::Periodic { periods, radius: orbit.radius() };
-            (kind, orbit.start, periods as usize)
+            (kind, Start::of_state(&orbit.state), periods as usize)
         }
         RecordFinding::Section { from, periods, steady: true } if settled => {
             (AttractorKind::QuasiPeriodic, from, periods)
@@ -297,9 +295,9 @@ fn orbit(
     let own = (ITS_OWN * size).max(least);
     (1..=MOST_PERIODS).filter(may_be_closed).take(MOST_SHOTS).find_map(|n| {
         let periods = u32::try_from(n).ok()?;
-        let orbit = near(settings.belt, end, periods).ok()?;
-        let attracts =
-            orbit.verdict() != OrbitVerdict::Unstable && gap(state(orbit.start), state(end)) <= own;
+        let orbit = near(&settings.system, &[end.displacement, end.velocity], periods).ok()?;
+        let attracts = orbit.verdict() != OrbitVerdict::Unstable
+            && gap(state(&orbit), (end.displacement, end.velocity)) <= own;
         attracts.then(|| shortest(settings, periods, orbit))
     })
 }
@@ -308,49 +306,23 @@ fn orbit(
 /// another one: that about which a small slow motion turns.
 fn shortest(settings: &AttractorSettings<'_>, periods: u32, orbit: Orbit) -> (u32, Orbit) {
     let same = |part: &Orbit| {
-        let off = gap(state(part.start), state(orbit.start));
+        let off = gap(state(part), state(&orbit));
         off <= ONE_STATE * settings.belt.normal_load() && part.verdict() != OrbitVerdict::Unstable
     };
-    let part = (1..periods)
-        .filter(|part| periods.is_multiple_of(*part))
-        .find_map(|part| Some((part, near(settings.belt, orbit.start, part).ok().filter(same)?)));
+    let part = (1..periods).filter(|part| periods.is_multiple_of(*part)).find_map(|part| {
+        Some((part, near(&settings.system, &orbit.state, part).ok().filter(same)?))
+    });
     part.unwrap_or((periods, orbit))
 }
 
-fn state(start: Start) -> (f64, f64) {
+fn state(orbit: &Orbit) -> (f64, f64) {
+    let start = Start::of_state(&orbit.state);
     (start.displacement, start.velocity)
 }
 
 /// Distance of two states.
 fn gap(a: (f64, f64), b: (f64, f64)) -> f64 {
     libm::hypot(a.0 - b.0, a.1 - b.1)
-}
-
-/// The periodic orbit to which a run from a state at τ = 0 converges; without dither, a limit cycle.
-///
-/// # Errors
-/// [`NoOrbit`]; [`NoOrbit::NoPeriod`] if the run does not converge to a closed orbit of up to 200 common periods.
-pub fn orbit_reached(belt: &Belt, start: Start) -> Result<Orbit, NoOrbit> {
-    let settings = AttractorSettings::new(belt)?;
-    if settings.is_autonomous()
-        && let FreeEnd::Cycle(cycle) = free_end(belt, start)?
-    {
-        return Ok(cycle);
-    }
-    let settled = settle(&settings, start, Patience::SWEEP).map_err(NoOrbit::Stalled)?;
-    match settled.outcome {
-        SettleOutcome::Unsettled(why) => Err(NoOrbit::Unsettled(why)),
-        SettleOutcome::Base => from_sliding(belt, STEPS),
-        SettleOutcome::Elsewhere if settled.is_at_rest(&settings) => Err(NoOrbit::AtRest),
-        SettleOutcome::Elsewhere => {
-            match records(&settings, settled.state).map_err(NoOrbit::Stalled)? {
-                RecordFinding::Orbit(_, orbit) => Ok(orbit),
-                RecordFinding::Section { .. } => {
-                    Err(NoOrbit::NoPeriod { most: u32::try_from(MOST_PERIODS).unwrap_or(u32::MAX) })
-                }
-            }
-        }
-    }
 }
 
 /// A motion as observed by a run on it.

@@ -19,7 +19,7 @@
 //! | `average` | averages over a section that converge faster than any power for quasi-periodic motion |
 //! | `rotation` | revolutions per period, and the fraction at which the motion locks |
 //! | `block_observer` | observation of a block of periods: section, sticks, contraction of areas |
-//! | `settle` | runs side by side, until each has settled |
+//! | `settle`, `unsettled` | runs side by side, until each has settled, or why one has not |
 //! | `measure` | classification of the attractor of a settled run |
 //! | `basin` | which starts lead to the same attractor |
 //! | `end_of_run` | the motion on which a run of any system ends |
@@ -40,14 +40,14 @@ mod settings;
 mod settle;
 mod switches;
 mod system_attractor;
+mod unsettled;
 
-pub use crate::orbit::Unsettled;
 pub use base_response::BaseResponse;
 pub use basin::{Basin, BasinLabel, BasinsOfAttraction, gather};
 pub use end_of_run::{
     EndOfRun, NoEnd, end_of_run, ends_of_runs, judged_mass, measured_of_one_mass, starts_of_mass,
 };
-pub use measure::{Attractor, AttractorKind, measure, orbit_reached};
+pub use measure::{Attractor, AttractorKind, measure};
 pub use outcome::{RunOutcome, outcome_of_run};
 pub use rotation::{Ratio, Rotation};
 pub use section::StroboscopicSection;
@@ -57,3 +57,4 @@ pub use switches::{
     RunSwitch, RunSwitches, SWITCH_CLOSENESS, StartOfRun, TriedValue, VariedRun, values_tried,
 };
 pub use system_attractor::{MotionKind, SystemAttractor};
+pub use unsettled::Unsettled;

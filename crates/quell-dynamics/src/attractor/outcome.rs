@@ -6,7 +6,7 @@ use super::end_of_run::{FreeMotion, NoEnd, free_motion, judged_mass, start_of_ma
 use super::measure::classified;
 use super::settings::AttractorSettings;
 use super::settle::{Patience, SettleOutcome, settle};
-use crate::motion::orbit::{NoMotionOrbit, settled, sliding_state};
+use crate::orbit::{NoOrbit, settled, sliding_state};
 use crate::simulation::Stalled;
 
 /// How a run ends.
@@ -48,7 +48,7 @@ pub fn outcome_of_run(system: &System, start: &[f64]) -> Result<RunOutcome, NoEn
         Ok(found) if found.is_quiet(system) => {
             Ok(RunOutcome::Quiet(found.orbit.state, found.multiple))
         }
-        Ok(_) | Err(NoMotionOrbit::Unsettled { is_steady: true, .. }) => Ok(RunOutcome::Vibrating),
+        Ok(_) | Err(NoOrbit::Unsettled { is_steady: true, .. }) => Ok(RunOutcome::Vibrating),
         Err(why) => Err(NoEnd::NoOrbit(why)),
     }
 }
@@ -65,7 +65,7 @@ fn outcome_of_one_mass(
     mass: &OneMass,
     start: &[f64],
 ) -> Result<RunOutcome, NoEnd> {
-    let settings = AttractorSettings::new(mass.belt()).map_err(NoEnd::NoSection)?;
+    let settings = AttractorSettings::new(mass.belt()).map_err(NoEnd::NoOrbit)?;
     let stopped = |why: Stalled| NoEnd::of_mass(mass, &why);
     let settled = settle(&settings, start_of_mass(mass, start), Patience::SWEEP);
     let settled = settled.map_err(stopped)?;

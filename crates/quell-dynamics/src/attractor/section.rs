@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use quell_model::Belt;
+use quell_linear::pure_slip::period;
+use quell_model::System;
 
-use crate::orbit::{NoOrbit, common_period};
+use crate::orbit::{NoImage, NoOrbit};
 
 /// Samples of an undithered belt per slow period 2π: a revolution is followed in steps of a tenth, so that none is missed. With
 /// two or fewer its direction would be undetermined; more only take longer.
@@ -20,17 +21,15 @@ pub struct StroboscopicSection {
 }
 
 impl StroboscopicSection {
-    /// The section of a belt.
+    /// The section of a system.
     ///
     /// # Errors
-    /// [`NoOrbit::Incommensurate`].
-    pub fn of(belt: &Belt) -> Result<Self, NoOrbit> {
-        match common_period(belt) {
-            Ok(period) => Ok(Self { period, dithered: true }),
-            Err(NoOrbit::NoDither) => {
-                Ok(Self { period: TAU / SAMPLES_WITHOUT_DITHER, dithered: false })
-            }
-            Err(why) => Err(why),
+    /// [`NoOrbit::NoImage`] of dithers without a common period.
+    pub fn of(system: &System) -> Result<Self, NoOrbit> {
+        if !system.has_waves() {
+            return Ok(Self { period: TAU / SAMPLES_WITHOUT_DITHER, dithered: false });
         }
+        let period = period(system).ok_or(NoOrbit::NoImage(NoImage::NoPeriod))?;
+        Ok(Self { period, dithered: true })
     }
 }

@@ -1,6 +1,6 @@
 //! The settings in which runs of a belt are judged: the belt, its stroboscopic section, and its base response.
 
-use quell_model::Belt;
+use quell_model::{Belt, System};
 
 use super::base_response::BaseResponse;
 use super::section::StroboscopicSection;
@@ -12,6 +12,8 @@ use crate::orbit::NoOrbit;
 pub struct AttractorSettings<'a> {
     /// The belt.
     pub belt: &'a Belt,
+    /// The belt as a system, whose state is (x, x′).
+    pub(super) system: System,
     /// When states are compared.
     pub section: StroboscopicSection,
     /// The base response, or why it does not exist.
@@ -22,15 +24,17 @@ impl<'a> AttractorSettings<'a> {
     /// The settings of a belt.
     ///
     /// # Errors
-    /// [`NoOrbit::Incommensurate`].
+    /// [`NoOrbit::NoImage`] of dithers without a common period.
     pub fn new(belt: &'a Belt) -> Result<Self, NoOrbit> {
-        let section = StroboscopicSection::of(belt)?;
-        Ok(Self { belt, section, base: BaseResponse::of(belt, section) })
+        let system = belt.system();
+        let section = StroboscopicSection::of(&system)?;
+        let base = BaseResponse::of(&system, belt, section);
+        Ok(Self { belt, system, section, base })
     }
 
     /// Whether a response that repeats after a number of periods is quiet, without slow motion of its own.
     pub(super) fn is_quiet(&self, periods: u32) -> bool {
-        is_quiet(&self.belt.system(), periods, f64::from(periods) * self.section.period)
+        is_quiet(&self.system, periods, f64::from(periods) * self.section.period)
     }
 
     /// Whether no dither acts.

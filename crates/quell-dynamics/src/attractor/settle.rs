@@ -12,7 +12,7 @@
 //! A start on an unstable base response would stay there until rounding displaces it: it is displaced by
 //! `NUDGE` F first.
 //!
-//! Without dither no run is judged in this way: the exact cycle map decides ([`crate::orbit::cycle`]).
+//! Without dither no run is judged in this way: the exact cycle map decides ([`cycles`]).
 //!
 //! Runs do not affect each other: the outcome of a run has the same bits alone and together with other runs.
 //!
@@ -24,9 +24,9 @@ use super::average::{self, Moments};
 use super::base_response::BaseResponse;
 use super::block_observer::BlockObserver;
 use super::settings::AttractorSettings;
+use super::unsettled::Unsettled;
 use crate::decay::decays_at;
-use crate::orbit::cycle::{cycle_reached, cycles};
-use crate::orbit::{NoOrbit, Orbit, OrbitVerdict, Unsettled};
+use crate::orbit::{CycleMapError, Orbit, OrbitVerdict, cycle_reached, cycles};
 use crate::simulation::{
     DEFAULT_TOLERANCE, FinalState, SimulationRun, Stalled, Start, simulate, simulate_many,
 };
@@ -282,14 +282,14 @@ pub fn settle_many(
 
 /// The limit sets of undithered runs, by the cycle map.
 fn undithered(settings: &AttractorSettings<'_>, starts: &[Start]) -> Vec<Result<Settled, Stalled>> {
-    // Without dither a stalled engine is the only failure.
-    let stall = |why: NoOrbit| match why {
-        NoOrbit::Stalled(stalled) => stalled,
-        _ => Stalled::NEVER_STARTED,
+    let stall = |why: CycleMapError| match why {
+        CycleMapError::Stalled(stalled) => stalled,
+        CycleMapError::NoLimit => Stalled::NEVER_STARTED,
     };
     let known = cycles(settings.belt).and_then(|cycles| {
-        let summaries = cycles.iter().map(|cycle| one_block(settings, cycle.start));
-        let summaries = summaries.collect::<Result<Vec<_>, _>>().map_err(NoOrbit::Stalled)?;
+        let starts = cycles.iter().map(|cycle| Start::of_state(&cycle.state));
+        let summaries = starts.map(|start| one_block(settings, start));
+        let summaries = summaries.collect::<Result<Vec<_>, _>>().map_err(CycleMapError::Stalled)?;
         Ok((cycles, summaries))
     });
     let (cycles, summaries) = match known {
@@ -307,8 +307,12 @@ fn undithered(settings: &AttractorSettings<'_>, starts: &[Start]) -> Vec<Result<
                 Ok(Some(cycle)) if cycle.verdict() == OrbitVerdict::Unstable => {
                     (SettleOutcome::Unsettled(Unsettled::Dwelling), start, index_of(cycle))
                 }
-                Ok(Some(cycle)) => (SettleOutcome::Elsewhere, cycle.start, index_of(cycle)),
-                Err(NoOrbit::NoLimit) => (SettleOutcome::Unsettled(Unsettled::Moving), start, None),
+                Ok(Some(cycle)) => {
+                    (SettleOutcome::Elsewhere, Start::of_state(&cycle.state), index_of(cycle))
+                }
+                Err(CycleMapError::NoLimit) => {
+                    (SettleOutcome::Unsettled(Unsettled::Moving), start, None)
+                }
                 Err(why) => return Err(stall(why)),
             };
             let summary =

@@ -7,9 +7,7 @@
 use quell_model::System;
 
 use super::outcome::{RunOutcome, outcome_of_run};
-use crate::motion::orbit::{NoMotionOrbit, motion_thresholds, ramped_motion};
-use crate::orbit::OrbitVerdict;
-use crate::orbit::threshold::ThresholdKind;
+use crate::orbit::{NoOrbit, OrbitVerdict, ThresholdKind, branch_thresholds, ramped_motion};
 use crate::simulation::within;
 
 /// Relative width of the interval at which halving ends, in thresholds and designs alike: answers show six digits. A larger one would show
@@ -70,7 +68,7 @@ impl VariedRun<'_> {
             let start = (self.start)(value, &system)?;
             // Without dither there is nothing to ramp up.
             let start = match ramped_motion(&system, &start, self.ramp) {
-                Err(NoMotionOrbit::NoDither) => start,
+                Err(NoOrbit::NoDither) => start,
                 ramped => ramped.map_err(|why| why.to_string())?,
             };
             outcome_of_run(&system, &start).map_err(|why| why.to_string())
@@ -99,7 +97,7 @@ impl VariedRun<'_> {
             (_, RunOutcome::Quiet(state, periods)) => (high, low, state, *periods),
             _ => return None,
         };
-        let found = motion_thresholds(&self.at, (from, to), STEPS, Some((state, periods))).ok()?;
+        let found = branch_thresholds(&self.at, (from, to), STEPS, Some((state, periods))).ok()?;
         let upwards = to > from;
         let threshold = found.thresholds.iter().find(|threshold| {
             let (near, far) = if upwards {

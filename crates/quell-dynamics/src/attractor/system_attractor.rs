@@ -3,7 +3,7 @@
 use quell_model::System;
 
 use super::rotation::Rotation;
-use crate::motion::orbit::{CycleSamples, nearest_distance};
+use crate::orbit::{CycleSamples, nearest_distance};
 
 /// Mismatch of states, relative to their size, of one motion.
 pub(super) const SAME: f64 = 1e-5;

@@ -19,6 +19,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use quell_linear::averaging::{Effective, SlopeSide};
+use quell_linear::pure_slip::period;
 use quell_model::friction::{Bristles, SlidingLaw};
 use quell_model::profile::Profile;
 use quell_model::system::{Contact, Input, InputTarget, StateSpace, Structure, System};
@@ -28,7 +29,6 @@ use quell_numerics::matrix::Matrix;
 use bristles::Bristled;
 
 use crate::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped};
-use crate::orbit::{NoOrbit, common_period};
 
 /// Most periods that an elastic slider may take to its periodic motion.
 const MOST_PERIODS: usize = 4000;
@@ -56,7 +56,7 @@ const MOST_STEPS: u32 = 1 << 21;
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoMeanFriction {
     /// The dithers have no common period.
-    NoPeriod(NoOrbit),
+    NoPeriod,
     /// The motion of the state could not be computed.
     Stopped(MotionStopped),
     /// The contact cannot be simulated.
@@ -75,7 +75,7 @@ pub enum NoMeanFriction {
 impl fmt::Display for NoMeanFriction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoPeriod(why) => why.fmt(f),
+            Self::NoPeriod => f.write_str("the frequencies of the dithers have no common period"),
             Self::Stopped(why) => why.fmt(f),
             Self::Immobile(why) => f.write_str(why),
             Self::History => f.write_str(
@@ -134,11 +134,11 @@ pub fn mean_friction(belt: &Belt, slip_velocity: f64) -> Result<Effective, NoMea
 /// The mean of T/F and its error.
 fn coefficient_at(belt: &Belt, slip_velocity: f64) -> Result<[f64; 2], NoMeanFriction> {
     let level = belt.friction().static_coefficient();
-    let period = match common_period(belt) {
-        Ok(period) => period,
+    let period = match period(&belt.system()) {
+        Some(period) => period,
         // Nothing varies in time.
-        Err(_) if belt.fast_velocity() == 0.0 => 1.0,
-        Err(why) => return Err(NoMeanFriction::NoPeriod(why)),
+        None if belt.fast_velocity() == 0.0 => 1.0,
+        None => return Err(NoMeanFriction::NoPeriod),
     };
     if let (Some(bristles), Friction::Lugre(law)) = (belt.friction().bristles(), belt.friction()) {
         let steady = law.level();

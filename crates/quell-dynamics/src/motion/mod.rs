@@ -48,7 +48,6 @@ mod lyapunov;
 mod mass_piece;
 mod observer;
 mod one_mass;
-pub mod orbit;
 mod own_events;
 mod own_friction;
 mod own_state;
@@ -73,7 +72,7 @@ use quell_model::{OneMass, Profile, System};
 
 use engine::MotionRun;
 use equations::MotionEquations;
-use one_mass::{MassShot, PlannedMass, run_mass, shoot_mass};
+use one_mass::{PlannedMass, run_mass, shoot_mass};
 use selection::first_minor_not_positive;
 
 use crate::simulation::DEFAULT_TOLERANCE;
@@ -87,6 +86,8 @@ pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
     RecordedEvent, Trigger,
 };
+pub(crate) use one_mass::MassShot;
+pub(crate) use own_state::in_steady_sliding;
 pub use phase::ContactPhase;
 pub use reading_sampler::ReadingSampler;
 pub use row_meter::RowMeter;

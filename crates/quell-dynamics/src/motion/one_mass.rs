@@ -20,10 +20,9 @@ use super::own_state::law_of;
 use super::phase::{ContactNow, ContactPhase};
 use super::state::{ContactEnd, MotionEnd, MotionStart};
 use super::stopped::{MotionStopped, StopReason};
-use crate::orbit::Variation;
 use crate::simulation::{
     Clock, Event, EventKind, EventRecorder, FinalState, Forcing, ORDER, Observer, Segment, Series,
-    SimulationRun, Stalled, Start, continue_slip, simulate, simulate_many_with,
+    SimulationRun, Stalled, Start, Variation, continue_slip, simulate, simulate_many_with,
 };
 
 /// Slip velocities below this multiple of their rounding are zero at the start of a run, as for systems in general: a state of stick that

@@ -79,7 +79,7 @@ impl OwnState {
 }
 
 /// The state of a contact in steady sliding; `None` of a contact without one.
-pub(super) fn in_steady_sliding(contact: &Contact, steady: &SteadyContact) -> Option<f64> {
+pub(crate) fn in_steady_sliding(contact: &Contact, steady: &SteadyContact) -> Option<f64> {
     let own = OwnState::of(contact, 0)?;
     Some(match own.kind {
         OwnStateKind::Elastic { .. } => steady.friction * steady.factor,

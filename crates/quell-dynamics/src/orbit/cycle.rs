@@ -13,16 +13,45 @@
 //! are outside the interval and are not searched for.
 
 use std::f64::consts::TAU;
+use std::fmt;
 
 use quell_model::Belt;
 use quell_numerics::roots::{Closeness, try_find_root, try_minimise};
 
-use super::no_orbit::NoOrbit;
-use super::period_map::TOLERANCE;
-use super::periodic_orbit::Orbit;
-use super::shooting::orbit_at;
+use super::periodic::{Orbit, orbit_at};
 use super::verdict::OrbitVerdict;
-use crate::simulation::{Event, EventKind, EventRecorder, Start, VelocitySection, simulate};
+use crate::motion::Motion;
+use crate::simulation::{
+    Event, EventKind, EventRecorder, Stalled, Start, VelocitySection, simulate,
+};
+
+/// Bound on the last terms of a step, relative to the load: that of an orbit.
+const TOLERANCE: f64 = 1e-14;
+
+/// Largest error of a cycle's state, relative to F: with more its size is not determined, as in a continuum of free oscillations.
+const DETERMINED: f64 = 1e-2;
+
+/// Why the limit set of an undithered run is unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CycleMapError {
+    /// The run converges neither to a known limit cycle nor to stable steady sliding.
+    NoLimit,
+    /// The engine stopped.
+    Stalled(Stalled),
+}
+
+impl fmt::Display for CycleMapError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoLimit => f.write_str(
+                "the run converges neither to a known limit cycle nor to stable steady sliding",
+            ),
+            Self::Stalled(stalled) => stalled.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for CycleMapError {}
 
 /// Number of sizes at which the map is evaluated.
 const SIZES: u32 = 60;
@@ -66,7 +95,7 @@ pub enum FreeEnd {
 }
 
 /// The state at which the contact of the undithered belt releases, independent of the history: x = μ_sF − 2ζv₀, x′ = v₀.
-pub(crate) fn released(belt: &Belt) -> Start {
+fn released(belt: &Belt) -> Start {
     let threshold = belt.friction().static_coefficient() * belt.normal_load();
     Start {
         time: 0.0,
@@ -93,7 +122,7 @@ impl CycleMap<'_> {
     }
 
     /// Relative growth of the size over one revolution.
-    fn growth(&self, size: f64) -> Result<f64, NoOrbit> {
+    fn growth(&self, size: f64) -> Result<f64, CycleMapError> {
         let next = revolution(self.belt, self.lowest(size))?;
         Ok(next.map_or(-1.0, |next| self.size(&next) / size - 1.0))
     }
@@ -105,24 +134,24 @@ impl CycleMap<'_> {
     }
 
     /// The size of the revolution that follows a release, the largest that a cycle can have; `None` if no revolution follows.
-    fn largest(&self) -> Result<Option<f64>, NoOrbit> {
+    fn largest(&self) -> Result<Option<f64>, CycleMapError> {
         let outermost = revolution(self.belt, released(self.belt))?;
         Ok(outermost.map(|outermost| self.size(&outermost)).filter(|size| *size > 0.0))
     }
 
     /// Whether the revolution from the lowest point after a release sticks: the release is then on a cycle.
-    fn sticks(&self, largest: f64) -> Result<bool, NoOrbit> {
+    fn sticks(&self, largest: f64) -> Result<bool, CycleMapError> {
         Ok(revolution(self.belt, self.lowest(largest))?.is_some_and(|next| next.sticks))
     }
 
     /// Fixed points of the map below `largest`, the largest first.
-    fn fixed_sizes(&self, largest: f64) -> Result<Vec<f64>, NoOrbit> {
+    fn fixed_sizes(&self, largest: f64) -> Result<Vec<f64>, CycleMapError> {
         let size = |k: u32| {
             let share = f64::from(k) / f64::from(SIZES);
             largest * (SMALLEST + (1.0 - 1e-7 - SMALLEST) * share * (2.0 - share))
         };
         let grid = (0..=SIZES).rev().map(|k| Ok((size(k), self.growth(size(k))?)));
-        let grid: Vec<(f64, f64)> = grid.collect::<Result<_, NoOrbit>>()?;
+        let grid: Vec<(f64, f64)> = grid.collect::<Result<_, CycleMapError>>()?;
         let mut found = Vec::new();
         for (index, &(lower, below)) in grid.iter().enumerate().skip(1) {
             let (upper, above) = grid[index - 1];
@@ -142,7 +171,7 @@ impl CycleMap<'_> {
 
     /// The size between two at which the growth changes sign; `None` where it jumps over zero without a fixed point: larger
     /// revolutions stick and grow, smaller ones only slip and decay.
-    fn root(&self, lower: f64, upper: f64) -> Result<Option<f64>, NoOrbit> {
+    fn root(&self, lower: f64, upper: f64) -> Result<Option<f64>, CycleMapError> {
         let closeness = Closeness { absolute: 0.0, relative: 1e-14 };
         // A change of sign of finite values brackets a root: the search itself cannot fail.
         let root = try_find_root(|size| self.growth(size), lower, upper, closeness)?;
@@ -152,13 +181,13 @@ impl CycleMap<'_> {
 
     /// Two sizes around a dip of the growth towards zero between three sizes of the grid, where it changes sign twice: near the
     /// fold of a stable and an unstable cycle both are between neighbours of the grid.
-    fn pair(&self, [low, middle, high]: [(f64, f64); 3]) -> Result<Vec<f64>, NoOrbit> {
+    fn pair(&self, [low, middle, high]: [(f64, f64); 3]) -> Result<Vec<f64>, CycleMapError> {
         let sign = middle.1.signum();
         let dips = sign * middle.1 <= sign * low.1 && sign * middle.1 <= sign * high.1;
         if !dips || low.1 * middle.1 <= 0.0 || middle.1 * high.1 <= 0.0 {
             return Ok(Vec::new());
         }
-        let depth = |size: f64| Ok::<f64, NoOrbit>(sign * self.growth(size)?);
+        let depth = |size: f64| Ok::<f64, CycleMapError>(sign * self.growth(size)?);
         let least = try_minimise(depth, low.0, high.0, Closeness::default())?;
         let Some(least) = least.ok().filter(|least| least.value < 0.0) else {
             return Ok(Vec::new());
@@ -168,7 +197,7 @@ impl CycleMap<'_> {
     }
 
     /// The cycle smaller than the grid: it exists if the growth at the smallest size and at size zero differ in sign.
-    fn below(&self, smallest: f64, growth: f64) -> Result<Option<f64>, NoOrbit> {
+    fn below(&self, smallest: f64, growth: f64) -> Result<Option<f64>, CycleMapError> {
         let least = NEGLIGIBLE * self.belt.normal_load();
         if growth * self.linear_growth() >= 0.0 || least >= smallest {
             return Ok(None);
@@ -177,25 +206,26 @@ impl CycleMap<'_> {
     }
 
     /// The cycle of a given size; `None` if the size is not determined.
-    fn cycle(&self, size: f64) -> Result<Option<Orbit>, NoOrbit> {
+    fn cycle(&self, size: f64) -> Result<Option<Orbit>, CycleMapError> {
         let start = self.lowest(size);
         let Some(next) = revolution(self.belt, start)? else { return Ok(None) };
+        let system = self.belt.system();
+        let Ok(motion) = Motion::new(&system) else { return Ok(None) };
         let state = [start.displacement, start.velocity];
-        let cycle = orbit_at(self.belt, &state, next.time, true)?;
-        // In a continuum of free oscillations the size is determined by rounding.
-        Ok(cycle.multiplier_error.is_finite().then_some(cycle))
+        let cycle = orbit_at(&motion, &state, next.time, true).ok();
+        Ok(cycle.filter(|cycle| cycle.state_error <= DETERMINED * self.belt.normal_load()))
     }
 }
 
 /// 2ζ + μ′(v₀)F of steady sliding without dither: small motions grow if it is negative.
-pub fn linear_damping(belt: &Belt) -> f64 {
+fn linear_damping(belt: &Belt) -> f64 {
     let slope = belt.friction().slope(belt.belt_velocity());
     belt.damping_rate(slope, belt.normal_load())
 }
 
 /// Whether steady sliding without dither is stable. e^{−c/2}, c = 2ζ + μ′(v₀)F, is the modulus of both multipliers over unit
 /// time of an underdamped belt, and is on the same side of 1 as the larger multiplier of an overdamped belt.
-pub fn sliding_verdict(belt: &Belt) -> OrbitVerdict {
+pub(crate) fn verdict_of_sliding(belt: &Belt) -> OrbitVerdict {
     OrbitVerdict::of(libm::exp(-0.5 * linear_damping(belt)), 0.0)
 }
 
@@ -204,8 +234,8 @@ pub fn sliding_verdict(belt: &Belt) -> OrbitVerdict {
 /// Each starts at its lowest displacement, at τ = 0.
 ///
 /// # Errors
-/// [`NoOrbit::Stalled`].
-pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
+/// [`CycleMapError::Stalled`].
+pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, CycleMapError> {
     let belt = &belt.undithered();
     if belt.belt_velocity() == 0.0 {
         return Ok(Vec::new());
@@ -225,8 +255,8 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, NoOrbit> {
 /// if no stable cycle exists.
 ///
 /// # Errors
-/// [`NoOrbit::Stalled`].
-pub fn squeal(belt: &Belt) -> Result<Option<Start>, NoOrbit> {
+/// [`CycleMapError::Stalled`].
+pub fn squeal(belt: &Belt) -> Result<Option<Start>, CycleMapError> {
     let belt = &belt.undithered();
     if belt.belt_velocity() == 0.0 {
         return Ok(None);
@@ -251,9 +281,9 @@ pub fn squeal(belt: &Belt) -> Result<Option<Start>, NoOrbit> {
 /// the next smaller.
 ///
 /// # Errors
-/// [`NoOrbit::Stalled`]; [`NoOrbit::NoLimit`] if revolutions neither grow nor shrink, grow for long beyond every known cycle,
+/// [`CycleMapError::Stalled`]; [`CycleMapError::NoLimit`] if revolutions neither grow nor shrink, grow for long beyond every known cycle,
 /// or shrink towards steady sliding that is not stable.
-pub fn free_end(belt: &Belt, start: Start) -> Result<FreeEnd, NoOrbit> {
+pub fn free_end(belt: &Belt, start: Start) -> Result<FreeEnd, CycleMapError> {
     if belt.belt_velocity() == 0.0 {
         return Ok(FreeEnd::Rest);
     }
@@ -266,7 +296,7 @@ pub fn free_end(belt: &Belt, start: Start) -> Result<FreeEnd, NoOrbit> {
 ///
 /// # Errors
 /// As [`free_end`].
-pub fn keeps_vibrating(belt: &Belt, start: Start) -> Result<bool, NoOrbit> {
+pub fn keeps_vibrating(belt: &Belt, start: Start) -> Result<bool, CycleMapError> {
     let belt = &belt.undithered();
     if belt.belt_velocity() == 0.0 {
         return Ok(false);
@@ -290,15 +320,16 @@ pub fn keeps_vibrating(belt: &Belt, start: Start) -> Result<bool, NoOrbit> {
 ///
 /// # Errors
 /// As [`free_end`].
-pub fn cycle_reached<'a>(
+pub(crate) fn cycle_reached<'a>(
     belt: &Belt,
     cycles: &'a [Orbit],
     start: Start,
-) -> Result<Option<&'a Orbit>, NoOrbit> {
+) -> Result<Option<&'a Orbit>, CycleMapError> {
     let belt = &belt.undithered();
     let sliding = belt.steady_sliding();
-    let size_of = |cycle: &Orbit| sliding - cycle.start.displacement;
-    let settled = || if linear_damping(belt) > 0.0 { Ok(None) } else { Err(NoOrbit::NoLimit) };
+    let size_of = |cycle: &Orbit| sliding - cycle.state[0];
+    let settled =
+        || if linear_damping(belt) > 0.0 { Ok(None) } else { Err(CycleMapError::NoLimit) };
     let mut from = start;
     for _ in 0..MOST_REVOLUTIONS {
         let Some(first) = revolution(belt, from)? else { return Ok(None) };
@@ -311,7 +342,7 @@ pub fn cycle_reached<'a>(
         let Some(second) = revolution(belt, from)? else { return Ok(None) };
         let next = sliding - second.displacement;
         if (next - size).abs() <= SAME * size {
-            return Err(NoOrbit::NoLimit);
+            return Err(CycleMapError::NoLimit);
         }
         if next < size {
             let smaller = cycles.iter().find(|cycle| size_of(cycle) < size);
@@ -322,7 +353,7 @@ pub fn cycle_reached<'a>(
             return Ok(larger);
         }
     }
-    Err(NoOrbit::NoLimit)
+    Err(CycleMapError::NoLimit)
 }
 
 /// Time in slip within which a revolution reaches its lowest point, two periods of the undamped oscillator; a motion without
@@ -341,15 +372,15 @@ fn longest_slip(belt: &Belt) -> f64 {
 /// Integrates from a state to the next lowest point; `None` if it is not reached within [`longest_slip`].
 ///
 /// A stick ends at the release, whose state is known: it is skipped, however slow the belt.
-fn revolution(belt: &Belt, start: Start) -> Result<Option<Revolution>, NoOrbit> {
+fn revolution(belt: &Belt, start: Start) -> Result<Option<Revolution>, CycleMapError> {
     let release = released(belt);
     let longest = longest_slip(belt);
     let mut from = Start { time: 0.0, ..start };
     let (mut elapsed, mut slipped, mut sticks) = (0.0, 0.0, false);
     while slipped < longest {
         let mut observer = (VelocitySection::upward(0.0), EventRecorder::default());
-        let end =
-            simulate(belt, from, 0.5 * TAU, TOLERANCE, &mut observer).map_err(NoOrbit::Stalled)?;
+        let end = simulate(belt, from, 0.5 * TAU, TOLERANCE, &mut observer)
+            .map_err(CycleMapError::Stalled)?;
         let lowest = observer.0.crossings.first();
         let until = lowest.map_or(f64::INFINITY, |lowest| lowest.time);
         let is_stick_before = |event: &Event| event.kind == EventKind::Stick && event.time < until;

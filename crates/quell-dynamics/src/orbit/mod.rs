@@ -1,43 +1,71 @@
-//! Periodic responses, exactly: Newton shooting on the period map, Floquet multipliers through stick and slip.
+//! Periodic motions, exactly: shooting on the period map, Floquet multipliers through stick, slip and separation.
 //!
 //! The steady response to periodic dither is a fixed point of the map over one common period (or n of them). Its stability
-//! is decided by the multipliers of the map's derivative, which `variation` integrates along the run with a jump at
-//! every event; neither averaging nor a long simulation is needed. In pure slip det M = exp(−∮(2ζ + μ′N)dτ). With a
-//! stick one multiplier is 0, because the mass always leaves the stick in the same state.
-//!
-//! Shooting, branches and thresholds are the mathematics of [`quell_numerics::continuation`]. [`family`] provides the
-//! period map of a belt, and is the part to be rewritten for a model with more masses and contacts.
-//!
-//! * [`threshold`]: the values of a parameter at which the base response gains or loses stability;
-//! * [`cycle`]: the limit cycles of an undithered belt, stable or not, and the limit sets of undithered runs.
+//! is decided by the multipliers of the map's derivative, which is integrated along the run with a jump at every event; neither
+//! averaging nor a long simulation is needed. [`OrbitFamily`] makes a system with parameters a
+//! [`PeriodMap`](quell_numerics::continuation::PeriodMap), so that shooting, branches, thresholds and their curves are those of
+//! [`quell_numerics::continuation`]. A belt is its system ([`Belt::system`](quell_model::Belt::system)).
 //!
 //! | file | contents |
 //! |---|---|
-//! | `period` | the common period of the dithers |
-//! | `variation`, `collocation` | the variational equation along a run |
-//! | `period_map` | one period with its derivative, and the multipliers |
-//! | `periodic_orbit`, `verdict`, `no_orbit` | a periodic response, its stability, and why none was found |
-//! | `accuracy` | the errors of an orbit and of its multipliers |
-//! | `shooting` | an orbit near a state, or continued from steady sliding |
+//! | `family` | one period with its derivative and its signature |
+//! | `periodic`, `verdict` | a periodic motion, its multipliers and verdict; found near a state, or continued from steady sliding |
+//! | `cycle` | every limit cycle of one mass without dither, by the map of its sizes |
+//! | `free`, `passages`, `watch` | limit cycles of other systems: the search, its section, and its length |
+//! | `approach` | how a run approaches steady sliding |
+//! | `recurrence` | when a run comes back near its own states |
+//! | `ramp` | a run whose dither grows from zero |
+//! | `cycle_search` | a stable limit cycle from several starts |
+//! | `settled`, `transient` | the periodic motion on which a run ends |
+//! | `cycle_samples`, `passing` | samples over a period, and how near a state it passes |
+//! | `sliding` | the verdict on steady sliding, and how a start on it is displaced |
+//! | `threshold_kind`, `thresholds` | values of a parameter at which the base response gains or loses stability |
+//! | `curves`, `threshold_curve` | their curves over a second parameter |
+//! | `sensitivity` | their derivatives with respect to other numbers |
 
-mod accuracy;
-mod collocation;
-pub mod cycle;
-pub mod family;
-mod no_orbit;
-mod period;
-mod period_map;
-mod periodic_orbit;
-mod shooting;
-pub mod threshold;
-mod variation;
+mod approach;
+mod curves;
+mod cycle;
+mod cycle_samples;
+mod cycle_search;
+mod family;
+mod free;
+mod passages;
+mod passing;
+mod periodic;
+mod ramp;
+mod recurrence;
+mod sensitivity;
+mod settled;
+mod sliding;
+mod threshold_curve;
+mod threshold_kind;
+mod thresholds;
+mod transient;
 mod verdict;
+mod watch;
 
-pub use no_orbit::{NoOrbit, Unsettled};
-pub use period::common_period;
-pub(crate) use period_map::multipliers_of;
-pub use periodic_orbit::Orbit;
-pub use shooting::{from_sliding, near};
-pub use variation::Matrix2;
-pub(crate) use variation::Variation;
+pub use curves::{ThresholdPlane, threshold_curves};
+pub use cycle::{CycleMapError, FreeEnd, cycles, free_end, keeps_vibrating, squeal};
+pub(crate) use cycle::{cycle_reached, verdict_of_sliding};
+pub use cycle_samples::{CycleSamples, SampledContact};
+pub use cycle_search::{
+    BASE_STEPS, CycleSearch, NamedStart, TriedStart, base_state, kicked_by, search_cycle,
+    squealing_state, usual_starts, without_cycle,
+};
+pub use family::{MotionSignature, NoImage, OrbitFamily, SystemAt};
+pub use free::{NoCycle, free_cycle, limit_cycles};
+pub use passing::nearest_distance;
+pub use periodic::{NoOrbit, Orbit, base_response, is_on_sliding, near, sliding_state};
+pub use ramp::ramped_motion;
+pub use sensitivity::sensitivity_of_threshold;
+pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};
+pub use sliding::{displaced, sliding_verdict};
+pub use threshold_curve::{
+    CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
+};
+pub use threshold_kind::{BranchEnding, ThresholdKind, is_gap};
+pub use thresholds::{
+    BranchResponse, BranchThresholds, SignatureChange, Threshold, branch_thresholds,
+};
 pub use verdict::OrbitVerdict;

@@ -12,15 +12,17 @@
 //!   velocity is exactly zero, so that ⟨v_r⟩ is exactly the belt velocity. The response need not be stable.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt;
 use std::sync::LazyLock;
 
-use quell_model::{Belt, Direction, Dither};
+use quell_model::{Belt, Direction, Dither, System};
 use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 
-use crate::attractor::orbit_reached;
-use crate::orbit::cycle::sliding_verdict;
-use crate::orbit::{NoOrbit, Orbit, OrbitVerdict, common_period, from_sliding};
+use crate::attractor::{MotionKind, end_of_run};
+use crate::orbit::{
+    BASE_STEPS, NoOrbit, Orbit, OrbitVerdict, base_response, near, verdict_of_sliding,
+};
 use crate::simulation::{Observer, Segment, Stalled, Start, simulate};
 
 /// Nodes and weights on [0, 1] of the rule for an interval.
@@ -206,8 +208,38 @@ pub struct SteadyFriction {
 /// Window edges in a period of a steady response: a piece of stick between them is short.
 const STEADY_EDGES: usize = 16;
 
-/// Least number of steps in which the dither grows to its amplitude.
-const STEPS: u32 = 8;
+/// Why there is no steady response whose friction is measured.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoSteadyFriction {
+    /// The surface cannot move at this slip velocity.
+    Invalid {
+        /// The slip velocity.
+        slip_velocity: f64,
+    },
+    /// At a negative slip velocity a tangential burst would have to change its sign, which is no burst.
+    NoMirror,
+    /// The response does not exist or was not found.
+    NoOrbit(NoOrbit),
+    /// The engine stopped.
+    Stalled(Stalled),
+}
+
+impl fmt::Display for NoSteadyFriction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Invalid { slip_velocity } => {
+                write!(f, "the surface cannot move at a slip velocity of {slip_velocity}")
+            }
+            Self::NoMirror => f.write_str(
+                "a burst is no burst after a change of sign, which a negative slip velocity needs",
+            ),
+            Self::NoOrbit(why) => why.fmt(f),
+            Self::Stalled(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoSteadyFriction {}
 
 /// Effective friction (4.30) at a mean slip velocity (4.31), without averaging: the belt moves at `slip_velocity`, and f/N is
 /// averaged over the period of the response that continues steady sliding as the dither grows, or where that does not exist, of
@@ -215,33 +247,38 @@ const STEPS: u32 = 8;
 /// velocity is the mirror image: displacements and tangential forces change sign. Without dither it is the law itself.
 ///
 /// # Errors
-/// [`NoOrbit`] where that response does not exist or is not found, dithers have no common period, or the slip velocity is 0 or not
+/// [`NoSteadyFriction`] where that response does not exist or is not found, dithers have no common period, or the slip velocity is 0 or not
 /// a number.
 pub fn steady_effective_friction(
     belt: &Belt,
     slip_velocity: f64,
     tolerance: f64,
-) -> Result<SteadyFriction, NoOrbit> {
+) -> Result<SteadyFriction, NoSteadyFriction> {
     let belt = moving_at(belt, slip_velocity)?;
     if belt.total_amplitude(Direction::Tangential) + belt.total_amplitude(Direction::Normal) == 0.0
     {
         return Ok(SteadyFriction {
             coefficient: belt.friction().coefficient(slip_velocity.abs()) * slip_velocity.signum(),
             stick_fraction: 0.0,
-            verdict: sliding_verdict(&belt),
+            verdict: verdict_of_sliding(&belt),
             base: true,
         });
     }
-    let period = common_period(&belt)?;
-    let (orbit, base) = match from_sliding(&belt, STEPS) {
+    let system = belt.system();
+    let (orbit, base) = match base_response(&system, BASE_STEPS) {
         Ok(orbit) => (orbit, true),
-        Err(why) => (reached_in_step(&belt, period).ok_or(why)?, false),
+        Err(why) => {
+            let reached = reached_in_step(&system, belt.steady_sliding());
+            (reached.ok_or(NoSteadyFriction::NoOrbit(why))?, false)
+        }
     };
-    let mut edges = EdgeRecorder::new(&belt, orbit.start, period, STEADY_EDGES);
+    let (start, period) = (Start::of_state(&orbit.state), orbit.period);
+    let mut edges = EdgeRecorder::new(&belt, start, period, STEADY_EDGES);
     // A little longer, so that the last edge is passed.
-    simulate(&belt, orbit.start, period * (1.0 + 1e-9), tolerance, &mut edges)
-        .map_err(NoOrbit::Stalled)?;
-    let window = edges.means().next().ok_or(NoOrbit::Incommensurate)?;
+    simulate(&belt, start, period * (1.0 + 1e-9), tolerance, &mut edges)
+        .map_err(NoSteadyFriction::Stalled)?;
+    let none = NoSteadyFriction::Invalid { slip_velocity };
+    let window = edges.means().next().ok_or(none)?;
     Ok(SteadyFriction {
         coefficient: window.coefficient * slip_velocity.signum(),
         stick_fraction: window.stick_fraction,
@@ -251,19 +288,17 @@ pub fn steady_effective_friction(
 }
 
 /// The response of the dither's period on which a run from steady sliding ends, if it ends on one.
-fn reached_in_step(belt: &Belt, period: f64) -> Option<Orbit> {
-    let (displacement, velocity) = (belt.steady_sliding(), 0.0);
-    let start = Start { time: 0.0, displacement, velocity };
-    let orbit = orbit_reached(belt, start).ok()?;
-    // A longer orbit is a whole multiple of this period: the slack only absorbs rounding.
-    (orbit.period <= period * (1.0 + 1e-9)).then_some(orbit)
+fn reached_in_step(system: &System, sliding: f64) -> Option<Orbit> {
+    let end = end_of_run(system, &[1.0], &[sliding, 0.0]).ok()?.attractor;
+    let MotionKind::Periodic { periods: 1, .. } = end.kind else { return None };
+    near(system, &end.state, 1).ok()
 }
 
 /// The belt with this slip velocity in steady sliding, reflected where it is negative: tangential dither changes its sign, by
 /// half a period of a waveform with g(s + π) = −g(s), by −g of another one. A burst has no −g.
-fn moving_at(belt: &Belt, slip_velocity: f64) -> Result<Belt, NoOrbit> {
+fn moving_at(belt: &Belt, slip_velocity: f64) -> Result<Belt, NoSteadyFriction> {
     if slip_velocity == 0.0 {
-        return Err(NoOrbit::Invalid { value: slip_velocity });
+        return Err(NoSteadyFriction::Invalid { slip_velocity });
     }
     let mirrored = |dither: &Dither| {
         if slip_velocity > 0.0 || dither.direction == Direction::Normal {
@@ -281,7 +316,7 @@ fn moving_at(belt: &Belt, slip_velocity: f64) -> Result<Belt, NoOrbit> {
         belt.normal_load(),
         slip_velocity.abs(),
         belt.friction().clone(),
-        dithers.ok_or(NoOrbit::NoMirror)?,
+        dithers.ok_or(NoSteadyFriction::NoMirror)?,
     )
-    .map_err(|_| NoOrbit::Invalid { value: slip_velocity })
+    .map_err(|_| NoSteadyFriction::Invalid { slip_velocity })
 }

@@ -10,8 +10,7 @@ use quell_numerics::spectrum::low_band::LargestLines;
 use super::record_lines::RecordLines;
 use super::solver::Solver;
 use super::spectral_meter::{Sampling, SpectralMeter};
-use crate::orbit::cycle::{keeps_vibrating, sliding_verdict};
-use crate::orbit::{NoOrbit, OrbitVerdict};
+use crate::orbit::{CycleMapError, OrbitVerdict, keeps_vibrating, verdict_of_sliding};
 use crate::simulation::{
     FinalState, InstructionSet, LargestSlip, Observer, Segment, SimulationRun, Stalled, Start,
     simulate_many_with,
@@ -196,12 +195,12 @@ pub(super) fn keeps_vibrating_without(
     match keeps_vibrating(&case.belt, case.start) {
         Ok(true) => Ok(Ok(())),
         // A run that does not leave unstable sliding started exactly there.
-        Ok(false) if sliding_verdict(&case.belt.undithered()) == OrbitVerdict::Unstable => {
+        Ok(false) if verdict_of_sliding(&case.belt.undithered()) == OrbitVerdict::Unstable => {
             Ok(Err(Undefined::UnditheredUnstable))
         }
         Ok(false) => Ok(Err(Undefined::UnditheredSettles)),
-        Err(NoOrbit::Stalled(stalled)) => Err(stalled),
-        Err(_) => Ok(Err(Undefined::UnditheredUnknown)),
+        Err(CycleMapError::Stalled(stalled)) => Err(stalled),
+        Err(CycleMapError::NoLimit) => Ok(Err(Undefined::UnditheredUnknown)),
     }
 }
 

@@ -27,7 +27,8 @@ pub use crate::band::{
 };
 pub use effect::{Effect, QUENCHED, SUPPRESSED, Uncertain, Vibrations};
 pub use effective::{
-    SteadyFriction, WindowMean, measured_effective_friction, steady_effective_friction,
+    NoSteadyFriction, SteadyFriction, WindowMean, measured_effective_friction,
+    steady_effective_friction,
 };
 pub use isocline::amplitude_at_residual_vibration;
 pub use measure::{Compared, MeasuredRecord, ResponseCase, Undefined, compare_many};

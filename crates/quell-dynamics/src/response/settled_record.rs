@@ -9,11 +9,11 @@ use super::record_lines::RecordLines;
 use super::record_tones::{lines_of, spectrum_of};
 use super::response_plan::ResponsePlan;
 use super::system_ending::{SystemEnding, drifts};
-use crate::motion::orbit::is_on_sliding;
 use crate::motion::{
     ContactMeans, ContactMeter, InputCost, InputMeter, Motion, MotionEnd, MotionObserver,
     MotionSegment, MotionStart, MotionStopped, NoPower, ReadingSampler, RowMeter,
 };
+use crate::orbit::is_on_sliding;
 
 /// The settled record of one run.
 #[derive(Clone, Debug)]

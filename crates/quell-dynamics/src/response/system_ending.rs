@@ -9,8 +9,8 @@ use quell_linear::spectrum::spectrum;
 use quell_model::System;
 
 use crate::attractor::{MotionKind, NoEnd, SystemAttractor, end_of_run};
-use crate::motion::orbit::is_on_sliding;
 use crate::motion::{Motion, MotionEnd, MotionStart, MotionStopped};
+use crate::orbit::is_on_sliding;
 
 /// Where a run ends.
 #[derive(Clone, Debug, PartialEq)]

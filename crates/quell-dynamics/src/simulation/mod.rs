@@ -33,6 +33,7 @@
 //! | `step_budget` | the limit on steps |
 
 mod clock;
+mod collocation;
 mod engine;
 mod event;
 mod extremes;
@@ -53,6 +54,7 @@ mod step_budget;
 mod stick;
 mod taylor;
 mod transitions;
+mod variation;
 
 pub use quell_numerics::dispatch::InstructionSet;
 
@@ -71,3 +73,4 @@ pub(crate) use step_budget::StepBudget;
 pub use step_budget::{MOST_STEPS, apart, count_taken, is_used_up, left, within};
 pub use taylor::ORDER;
 pub(crate) use taylor::{RECIPROCALS, Series};
+pub use variation::{Matrix2, Variation};

@@ -17,14 +17,12 @@ impl Start {
     /// x = 0, x′ = 0 at τ = 0.
     pub const REST: Self = Self { time: 0.0, displacement: 0.0, velocity: 0.0 };
 
-    /// The state (x, x′) at τ = 0, as continuation passes it.
-    pub(crate) fn of_state(state: &[f64]) -> Self {
-        match state {
-            [displacement, velocity] => {
-                Self { time: 0.0, displacement: *displacement, velocity: *velocity }
-            }
-            _ => Self::REST,
-        }
+    /// The state (x, x′) of a belt as a system, at τ = 0.
+    ///
+    /// # Panics
+    /// On a state of fewer numbers.
+    pub fn of_state(state: &[f64]) -> Self {
+        Self { time: 0.0, displacement: state[0], velocity: state[1] }
     }
 }
 

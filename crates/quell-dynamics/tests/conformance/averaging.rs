@@ -1,12 +1,14 @@
 //! Averaging: identities of the criterion and of the critical amplitudes, and the criterion against Floquet multipliers.
 
-use quell_dynamics::orbit::{self, Orbit, from_sliding};
+use quell_dynamics::orbit::{Orbit, OrbitVerdict, base_response};
 use quell_linear::averaging::{
     AveragedVerdict, Averaging, AveragingError, Becomes, Criterion, criterion, critical_amplitudes,
 };
 use quell_model::{Belt, Direction, Dither, Waveform};
 use quell_zoo::dither::dither;
 use quell_zoo::{BeltExt, all_belts, belt};
+
+use crate::belt_orbits::monodromy;
 
 /// Of the mass alone, R → ∞, and of the oscillator at its R.
 const OPTIONS: [Averaging; 2] = [Averaging::Limit, Averaging::FiniteR];
@@ -87,8 +89,8 @@ fn lengths_scale_out() {
 /// The criterion of a belt and the rate −ln|det M|/T of its base response over the period T.
 fn criterion_and_rate(belt: &Belt) -> (Criterion, f64, Orbit) {
     let averaged = criterion(belt, OPTIONS[1]).expect("a criterion");
-    let orbit = from_sliding(belt, 8).unwrap_or_else(|why| panic!("{belt:?}: {why}"));
-    let [[a, b], [c, d]] = orbit.monodromy;
+    let orbit = base_response(&belt.system(), 8).unwrap_or_else(|why| panic!("{belt:?}: {why}"));
+    let [[a, b], [c, d]] = monodromy(&orbit);
     let rate = -(a * d - b * c).ln() / orbit.period;
     (averaged, rate, orbit)
 }
@@ -123,12 +125,12 @@ fn the_criterion_is_the_limit_of_the_multipliers() {
                     // A margin for the difference that is left at R = 200.
                     if averaged.value.abs() > 1e-3 {
                         let expected = match averaged.verdict {
-                            AveragedVerdict::Stable => orbit::OrbitVerdict::Stable,
-                            AveragedVerdict::Unstable => orbit::OrbitVerdict::Unstable,
+                            AveragedVerdict::Stable => OrbitVerdict::Stable,
+                            AveragedVerdict::Unstable => OrbitVerdict::Unstable,
                             AveragedVerdict::Undecided { .. } => panic!("{label}: {averaged:?}"),
                         };
                         assert_eq!(orbit.verdict(), expected, "{label}: {orbit:?}");
-                        judged[usize::from(expected == orbit::OrbitVerdict::Stable)] += 1;
+                        judged[usize::from(expected == OrbitVerdict::Stable)] += 1;
                     }
                 }
             }

@@ -7,6 +7,8 @@ mod attractors;
 mod averaging;
 #[path = "../shared/balance.rs"]
 mod balance;
+#[path = "../shared/orbits.rs"]
+mod belt_orbits;
 mod orbits;
 mod response;
 mod simulation;

@@ -1,17 +1,18 @@
 //! Periodic responses: closure, determinants, differences, lengths, and simulation.
 
-use quell_dynamics::orbit::cycle::cycles;
-use quell_dynamics::orbit::{Orbit, OrbitVerdict, from_sliding};
+use quell_dynamics::orbit::{Orbit, OrbitVerdict, base_response, cycles};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
 use quell_model::Belt;
 use quell_zoo::{BeltExt, NamedModel, all_belts};
+
+use crate::belt_orbits::{along, monodromy, start_of};
 
 /// The base responses of all dithered belts: each has one.
 fn base_responses() -> Vec<(NamedModel<Belt>, Orbit)> {
     let dithered = all_belts().into_iter().filter(|named| !named.model.dithers().is_empty());
     dithered
         .map(|named| {
-            let orbit = from_sliding(&named.model, 8);
+            let orbit = base_response(&named.model.system(), 8);
             let orbit = orbit.unwrap_or_else(|why| panic!("{}: {why}", named.name));
             (named, orbit)
         })
@@ -32,7 +33,7 @@ fn after(belt: &Belt, start: Start, time: f64) -> [f64; 2] {
 }
 
 fn determinant(orbit: &Orbit) -> f64 {
-    let [[a, b], [c, d]] = orbit.monodromy;
+    let [[a, b], [c, d]] = monodromy(orbit);
     a * d - b * c
 }
 
@@ -43,19 +44,18 @@ fn determinants_follow_from_the_contraction() {
     let (mut slipping, mut sticking) = (0, 0);
     for (named, orbit) in base_responses() {
         let name = &named.name;
-        let [x, v] = after(&named.model, orbit.start, orbit.period);
-        assert!((x - orbit.start.displacement).abs() < 1e-10, "{name}: {orbit:?}");
-        assert!((v - orbit.start.velocity).abs() < 1e-10, "{name}: {orbit:?}");
+        let [x, v] = after(&named.model, start_of(&orbit), orbit.period);
+        assert!((x - orbit.state[0]).abs() < 1e-10, "{name}: {orbit:?}");
+        assert!((v - orbit.state[1]).abs() < 1e-10, "{name}: {orbit:?}");
         let determinant = determinant(&orbit);
-        let [(a, b), (c, d)] = orbit.multipliers;
-        assert!((a * c - b * d - determinant).abs() < 1e-10, "{name}: {orbit:?}");
-        assert!((a * d + b * c).abs() < 1e-10, "{name}: {orbit:?}");
-        if orbit.is_pure_slip() {
-            let expected = (-orbit.damping).exp();
+        let product = orbit.multipliers[0] * orbit.multipliers[1];
+        assert!((product - determinant).norm() < 1e-10, "{name}: {orbit:?}");
+        if orbit.signature.is_pure_slip() {
+            let expected = (-along(&named.model, &orbit).damping).exp();
             assert!((determinant - expected).abs() < 1e-9 * expected, "{name}: {orbit:?}");
             slipping += 1;
         }
-        if orbit.count(EventKind::Stick) > 0 {
+        if orbit.signature.count(EventKind::Stick) > 0 {
             assert!(determinant.abs() < 1e-9, "{name}: {orbit:?}");
             sticking += 1;
         }
@@ -68,21 +68,21 @@ fn determinants_follow_from_the_contraction() {
 fn multipliers_agree_with_differences() {
     let mut checked = 0;
     for (named, orbit) in base_responses() {
-        if orbit.count(EventKind::Stick) > 0 {
+        if orbit.signature.count(EventKind::Stick) > 0 {
             continue;
         }
-        let (h, within) = if orbit.is_pure_slip() { (2e-4, 1e-8) } else { (1e-5, 1e-6) };
+        let (h, within) = if orbit.signature.is_pure_slip() { (2e-4, 1e-8) } else { (1e-5, 1e-6) };
         for column in 0..2 {
             let end = |steps: f64| {
                 let change = if column == 0 { [steps * h, 0.0] } else { [0.0, steps * h] };
-                let start = moved(orbit.start, change[0], change[1]);
+                let start = moved(start_of(&orbit), change[0], change[1]);
                 after(&named.model, start, orbit.period)
             };
             let (far, near, back, behind) = (end(2.0), end(1.0), end(-1.0), end(-2.0));
             for row in 0..2 {
                 let narrow = near[row] - back[row];
                 let difference = (8.0 * narrow - (far[row] - behind[row])) / (12.0 * h);
-                let own = orbit.monodromy[row][column];
+                let own = monodromy(&orbit)[row][column];
                 let gap = (own - difference).abs();
                 assert!(gap < within, "{}: {own} {difference} {orbit:?}", named.name);
             }
@@ -103,9 +103,9 @@ fn simulated_runs_approach_stable_orbits_and_leave_unstable_ones() {
         if orbit.verdict() == OrbitVerdict::Undecided || periods > 3000.0 {
             continue;
         }
-        let start = moved(orbit.start, distance, 0.0);
+        let start = moved(start_of(&orbit), distance, 0.0);
         let [x, v] = after(&named.model, start, periods * orbit.period);
-        let left = (x - orbit.start.displacement).hypot(v - orbit.start.velocity);
+        let left = (x - orbit.state[0]).hypot(v - orbit.state[1]);
         if orbit.verdict() == OrbitVerdict::Stable {
             assert!(left < 0.1 * distance, "{}: {left:e} {orbit:?}", named.name);
             stable += 1;
@@ -121,10 +121,10 @@ fn simulated_runs_approach_stable_orbits_and_leave_unstable_ones() {
 #[test]
 fn lengths_scale_out() {
     for (named, orbit) in base_responses() {
-        let doubled = from_sliding(&named.model.scaled(2.0), 8).expect("an orbit");
-        let gap = (2.0 * orbit.start.displacement - doubled.start.displacement).abs();
+        let doubled = base_response(&named.model.scaled(2.0).system(), 8).expect("an orbit");
+        let gap = (2.0 * orbit.state[0] - doubled.state[0]).abs();
         assert!(gap < 1e-12, "{}: {gap:e}", named.name);
-        assert_eq!((orbit.period, &orbit.events), (doubled.period, &doubled.events));
+        assert_eq!((orbit.period, &orbit.signature), (doubled.period, &doubled.signature));
         assert!((orbit.radius() - doubled.radius()).abs() < 1e-9, "{}", named.name);
     }
     for named in quell_zoo::belt::undithered() {
@@ -135,7 +135,7 @@ fn lengths_scale_out() {
             assert!((cycle.period - doubled.period).abs() < 1e-9, "{}", named.name);
             assert_eq!(cycle.verdict(), doubled.verdict(), "{}", named.name);
             // Its own multiplier along the orbit is 1.
-            let along = cycle.multipliers.iter().map(|(re, im)| (re - 1.0).hypot(*im));
+            let along = cycle.multipliers.iter().map(|multiplier| (multiplier - 1.0).norm());
             assert!(along.fold(f64::INFINITY, f64::min) < 1e-7, "{}: {cycle:?}", named.name);
         }
     }

@@ -1,9 +1,11 @@
 //! The steady response: against its orbit, its energy balance, and many at once.
 
-use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
+use quell_dynamics::orbit::{OrbitVerdict, base_response};
 use quell_dynamics::response::{ResponseCase, ResponsePlan, Solver, compare_many, respond};
 use quell_dynamics::simulation::{Start, simulate};
 use quell_zoo::all_belts;
+
+use crate::belt_orbits::start_of;
 
 const SOLVER: Solver = Solver { tolerance: 1e-12, settle: 60.0, record_periods: 6 };
 
@@ -29,17 +31,18 @@ fn the_steady_response_is_the_orbit() {
     let mut checked = 0;
     for named in all_belts() {
         let belt = &named.model;
-        let Ok(orbit) = from_sliding(belt, 8) else { continue };
+        let Ok(orbit) = base_response(&belt.system(), 8) else { continue };
         if orbit.verdict() != OrbitVerdict::Stable {
             continue;
         }
+        let start = start_of(&orbit);
         let plan = ResponsePlan::from(&SOLVER);
-        let found = respond(&belt.system(), &orbit.start.into(), &plan).expect("no stall");
+        let found = respond(&belt.system(), &start.into(), &plan).expect("no stall");
         let found = &found.dithered;
         for (number, sample) in found.samples.iter().enumerate().step_by(37) {
             let time = (number as f64).mul_add(found.step, found.from);
             let since = time.rem_euclid(orbit.period);
-            let end = simulate(belt, orbit.start, since, 1e-12, &mut ()).expect("no stall");
+            let end = simulate(belt, start, since, 1e-12, &mut ()).expect("no stall");
             let gap = (end.displacement - sample).abs();
             assert!(gap < 1e-8, "{} at {time}: {gap:e}", named.name);
         }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use quell_dynamics::motion::orbit::ThresholdCurveEnd;
+use quell_dynamics::orbit::ThresholdCurveEnd;
 use serde_json::Value as Json;
 
 use super::Presented;

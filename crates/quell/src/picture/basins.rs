@@ -16,7 +16,7 @@ use crate::run::system::attractor::in_words;
 use crate::run::system::start::state_quantity;
 use crate::study::SystemStudy;
 use quell_dynamics::attractor::MotionKind;
-use quell_dynamics::motion::orbit::CycleSamples;
+use quell_dynamics::orbit::CycleSamples;
 
 /// Most states of a motion that are drawn.
 const STATES: usize = 400;

@@ -11,8 +11,7 @@ use crate::plot::{
 use crate::run::thresholds::Thresholds;
 use crate::run::thresholds::curves::{AveragedBoundary, Curves};
 use crate::study::SystemStudy;
-use quell_dynamics::motion::orbit::ThresholdCurve;
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::{ThresholdCurve, ThresholdKind};
 
 /// Minimum jump of the multiplier between neighbouring points with different events that counts as grazing.
 const JUMP: f64 = 0.05;

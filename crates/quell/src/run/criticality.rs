@@ -1,7 +1,6 @@
 //! Whether the bifurcation at a threshold is supercritical, and to which side a fold opens, in JSON and in sentences.
 
-use quell_dynamics::motion::orbit::PointForm;
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::{PointForm, ThresholdKind};
 use quell_numerics::continuation::criticality::{Criticality, FirstLyapunov, NoFirstLyapunov};
 use quell_numerics::continuation::fold::{FoldCoefficient, FoldOpening};
 use serde_json::Value as Json;

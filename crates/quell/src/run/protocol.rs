@@ -1,6 +1,6 @@
 //! Initial-condition protocols: the state from which runs start, and how a door reads it.
 
-use quell_dynamics::motion::orbit::{sliding_state, squealing_state};
+use quell_dynamics::orbit::{sliding_state, squealing_state};
 use quell_model::System;
 
 use super::system::start::{StateNumbers, named, pair, read_state, start_in_words, start_with};

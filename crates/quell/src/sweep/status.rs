@@ -240,7 +240,7 @@ impl Status {
                 "the value is known, but the fast motion opens a contact, which averaging does not describe"
             }
             Self::NoBaseResponse => {
-                "the response that continues steady sliding ends before the dither reaches its amplitude, or could not be followed"
+                "the base response ends before the dither reaches its amplitude, or could not be followed"
             }
             Self::FrictionFactor => {
                 "a dither is a factor on a friction force, which averaging does not describe"

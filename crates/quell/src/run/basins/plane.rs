@@ -1,6 +1,6 @@
 //! The plane of starts: two numbers of the state, their windows, and how a door reads them.
 
-use quell_dynamics::motion::orbit::sliding_state;
+use quell_dynamics::orbit::sliding_state;
 use quell_model::System;
 
 use super::StartLayout;

@@ -1,7 +1,7 @@
 //! Sweeps in sentences, JSON and a dataset.
 
 use quell_dynamics::attractor::{MotionKind, SystemAttractor};
-use quell_dynamics::motion::orbit::MOST_PERIODS;
+use quell_dynamics::orbit::MOST_PERIODS;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 

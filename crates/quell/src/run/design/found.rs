@@ -3,7 +3,7 @@
 use quell_design::least_dither::{
     CoveredBox, DesignPoint, Designed, LimitedQuantity, ScheduledDither,
 };
-use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_dynamics::orbit::ThresholdKind;
 use quell_model::Waveform;
 
 use super::slow_response::LargestSlowResponse;

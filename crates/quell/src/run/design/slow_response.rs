@@ -1,7 +1,7 @@
 //! The response to a dither that repeats in the band of the vibration, on the base response.
 
 use quell_dynamics::motion::MotionStart;
-use quell_dynamics::motion::orbit::base_motion;
+use quell_dynamics::orbit::base_response;
 use quell_dynamics::response::{PEAK_FLOOR, Peak, Spectrum, respond};
 use quell_model::System;
 
@@ -40,7 +40,7 @@ fn strongest(spectrum: &Spectrum) -> Option<Peak> {
 /// The response of a system on its base response.
 pub(super) fn of_system(study: &SystemStudy, system: &System) -> Result<SlowResponse, String> {
     let plan = plan_of(study, ResponseRequest::default()).map_err(|why| why.to_string())?;
-    let orbit = base_motion(system, GROWTH_STEPS).map_err(|why| why.to_string())?;
+    let orbit = base_response(system, GROWTH_STEPS).map_err(|why| why.to_string())?;
     let start = MotionStart { time: 0.0, state: orbit.state };
     let found = respond(system, &start, &plan).map_err(|why| why.to_string())?;
     let residual_vibration = found.residual_vibration.map_err(undefined)?;

@@ -1,8 +1,7 @@
 //! The answer of `orbit` in sentences, JSON and a dataset.
 
-use quell_dynamics::motion::orbit::{MotionOrbit, NoMotionOrbit, without_cycle};
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
-use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, without_cycle};
 use quell_dynamics::simulation::EventKind;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
@@ -41,7 +40,7 @@ fn times(count: usize) -> String {
 }
 
 /// What a contact does in a period, after the noun, singular or plural.
-fn behaviour(orbit: &MotionOrbit, contact: usize, count: usize) -> String {
+fn behaviour(orbit: &Orbit, contact: usize, count: usize) -> String {
     let s = if count == 1 { "s" } else { "" };
     let reverses = if count == 1 { "reverses" } else { "reverse" };
     let number = |kind: EventKind| {
@@ -73,7 +72,7 @@ fn behaviour(orbit: &MotionOrbit, contact: usize, count: usize) -> String {
 }
 
 /// What the contacts do, in sentences.
-fn contacts_in_words(study: &SystemStudy, orbit: &MotionOrbit) -> String {
+fn contacts_in_words(study: &SystemStudy, orbit: &Orbit) -> String {
     let contacts = &study.system().contacts;
     let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
     for index in 0..contacts.len() {
@@ -107,7 +106,7 @@ fn contacts_in_words(study: &SystemStudy, orbit: &MotionOrbit) -> String {
 }
 
 /// The verdict in a sentence.
-fn verdict_in_words(orbit: &MotionOrbit) -> &'static str {
+fn verdict_in_words(orbit: &Orbit) -> &'static str {
     match orbit.verdict() {
         OrbitVerdict::Stable => "It is stable: small deviations die out.",
         OrbitVerdict::Unstable => "It is unstable: small deviations grow.",
@@ -136,7 +135,7 @@ pub fn sentence(study: &SystemStudy, found: &FoundMotion) -> String {
     let verdict = verdict_in_words(orbit);
     let instead = match &found.by {
         FoundBy::Run { instead: Some(why), .. } => {
-            let is_known = matches!(why, NoMotionOrbit::Ends { .. } | NoMotionOrbit::NoSliding(_));
+            let is_known = matches!(why, NoOrbit::Ends { .. } | NoOrbit::NoSliding(_));
             let fact = if is_known { "does not exist" } else { "was not found" };
             format!(" It replaces the base response, which {fact}: {why}.")
         }
@@ -174,7 +173,7 @@ fn put_events(events: &[RecordedEvent]) -> Vec<Json> {
 }
 
 /// The derivative of a period with respect to the state.
-fn put_monodromy(fields: &mut Fields, orbit: &MotionOrbit) {
+fn put_monodromy(fields: &mut Fields, orbit: &Orbit) {
     let size = orbit.state.len();
     match &orbit.monodromy {
         None => {

@@ -1,12 +1,11 @@
 //! `orbit`: the base response under dither, a periodic motion near a state, or the one on which a run ends, with its
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
-use quell_dynamics::motion::orbit::{
-    BASE_STEPS, CycleSamples, CycleSearch, MotionOrbit, NamedStart, NoMotionOrbit, SettledMotion,
-    TriedStart, base_motion, limit_cycles, motion_near, search_cycle, settled, sliding_verdict,
+use quell_dynamics::orbit::{
+    BASE_STEPS, CycleSamples, CycleSearch, NamedStart, NoOrbit, Orbit, OrbitVerdict, SettledMotion,
+    TriedStart, base_response, limit_cycles, near, search_cycle, settled, sliding_verdict,
     usual_starts,
 };
-use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::within;
 use quell_linear::growth::Verdict;
 use quell_model::System;
@@ -62,7 +61,7 @@ pub enum FoundBy {
         /// Dither periods until the run was near it.
         periods: u32,
         /// Why it replaces the base response, if that was wanted.
-        instead: Option<NoMotionOrbit>,
+        instead: Option<NoOrbit>,
     },
     /// It is one of all limit cycles of a single mass.
     Map,
@@ -77,7 +76,7 @@ pub enum FoundBy {
 #[derive(Clone, Debug)]
 pub struct FoundMotion {
     /// The motion.
-    pub orbit: MotionOrbit,
+    pub orbit: Orbit,
     /// Common dither periods in its period; 1 without dither.
     pub multiple: u32,
     /// How it was found.
@@ -113,17 +112,17 @@ fn periodic(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, Fa
         return undithered(study, wanted);
     }
     let system = study.system();
-    let refused = |why: NoMotionOrbit| failed("orbit", why);
+    let refused = |why: NoOrbit| failed("orbit", why);
     let (orbit, multiple, by) = match wanted {
         Wanted::Near { state, periods } => {
             let guess = start_with(study, state)?.state;
             let periods = (*periods).max(1);
-            (motion_near(system, &guess, periods).map_err(refused)?, periods, FoundBy::Shooting)
+            (near(system, &guess, periods).map_err(refused)?, periods, FoundBy::Shooting)
         }
         Wanted::After(protocol) => reached(study, protocol, None)?,
-        Wanted::Base { periods } => match base_motion(system, BASE_STEPS) {
+        Wanted::Base { periods } => match base_response(system, BASE_STEPS) {
             Ok(base) if *periods > 1 => {
-                let found = motion_near(system, &base.state, *periods).map_err(refused)?;
+                let found = near(system, &base.state, *periods).map_err(refused)?;
                 (found, *periods, FoundBy::Continuation)
             }
             Ok(base) => (base, 1, FoundBy::Continuation),
@@ -142,12 +141,7 @@ fn periodic(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, Fa
     })
 }
 
-fn with_samples(
-    study: &SystemStudy,
-    orbit: MotionOrbit,
-    multiple: u32,
-    by: FoundBy,
-) -> FoundMotion {
+fn with_samples(study: &SystemStudy, orbit: Orbit, multiple: u32, by: FoundBy) -> FoundMotion {
     let samples = if orbit.is_free {
         CycleSamples::of(&study.system().undithered(), &study.observe(), &orbit)
     } else {
@@ -160,8 +154,8 @@ fn with_samples(
 fn reached(
     study: &SystemStudy,
     protocol: &Protocol,
-    instead: Option<NoMotionOrbit>,
-) -> Result<(MotionOrbit, u32, FoundBy), Failure> {
+    instead: Option<NoOrbit>,
+) -> Result<(Orbit, u32, FoundBy), Failure> {
     let system = study.system();
     let start = protocol.state(study, system)?;
     let words = protocol.words(study);

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use quell_dynamics::orbit::threshold::BranchEnding;
+use quell_dynamics::orbit::BranchEnding;
 use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, indexed};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget};

@@ -1,9 +1,8 @@
 //! The motion on which a run of a system ends, in words and as JSON: `attractor`, `bifurcation`, `basins`, `response` and `probability`
 //! report it.
 
-use quell_dynamics::attractor::{AttractorSettings, MotionKind, SystemAttractor};
-use quell_dynamics::motion::orbit::{BASE_STEPS, base_motion, sliding_verdict};
-use quell_dynamics::orbit::NoOrbit;
+use quell_dynamics::attractor::{MotionKind, SystemAttractor};
+use quell_dynamics::orbit::{BASE_STEPS, base_response, sliding_verdict};
 use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::json;
@@ -13,36 +12,13 @@ use crate::fields::Fields;
 use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural};
 
-/// Why the base response is unknown, as text.
-fn unknown(why: &NoOrbit) -> String {
-    match why {
-        NoOrbit::Ends { share } => {
-            format!(
-                "the base response ends at {} % of the dither's amplitude",
-                digits(100.0 * share)
-            )
-        }
-        NoOrbit::LostOnTheWay { share } => format!(
-            "the base response could not be followed beyond {} % of the dither's amplitude",
-            digits(100.0 * share)
-        ),
-        why => format!("the base response was not found: {why}"),
-    }
-}
-
 /// Verdict on the base response of a dithered system, or on steady sliding without dither.
 ///
 /// # Errors
 /// Why it is unknown.
 pub fn local_verdict(system: &System) -> Result<&'static str, String> {
-    if system.is_dithered()
-        && let Some(mass) = system.one_mass()
-    {
-        let settings = AttractorSettings::new(mass.belt()).map_err(|why| why.to_string())?;
-        return settings.base.map(|base| base.verdict.name()).map_err(|why| unknown(&why));
-    }
     if system.is_dithered() {
-        let base = base_motion(system, BASE_STEPS).map_err(|why| why.to_string())?;
+        let base = base_response(system, BASE_STEPS).map_err(|why| why.to_string())?;
         return Ok(base.verdict().name());
     }
     Ok(sliding_verdict(system)?.name())

@@ -1,7 +1,7 @@
 //! Where a run of a system begins: the one place that decides it, for every verb.
 
 use quell_dynamics::motion::MotionStart;
-use quell_dynamics::motion::orbit::{base_state, sliding_state, squealing_state};
+use quell_dynamics::orbit::{base_state, sliding_state, squealing_state};
 use quell_model::system::Mechanical;
 use quell_model::units::{Quantity, measure};
 use quell_model::{Contact, System};

@@ -1,11 +1,9 @@
 //! The answer of `thresholds` as data.
 
 use quell_dynamics::attractor::RunOutcome;
-use quell_dynamics::motion::orbit::{
-    MotionSignatureChange, MotionThreshold, family::MotionSignature,
+use quell_dynamics::orbit::{
+    BranchEnding, MotionSignature, OrbitVerdict, SignatureChange, Threshold, is_gap,
 };
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::{BranchEnding, is_gap};
 use quell_dynamics::response::BAND_END;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -184,7 +182,7 @@ impl Thresholds {
 }
 
 /// One change of the events.
-fn put_change(study: &SystemStudy, unit: &str, change: &MotionSignatureChange) -> Fields {
+fn put_change(study: &SystemStudy, unit: &str, change: &SignatureChange) -> Fields {
     let words = |side: &Option<MotionSignature>| events_in_words(study, side.as_ref());
     let mut inner = Fields::of_system(study.units());
     inner
@@ -202,7 +200,7 @@ pub(crate) fn events_in_words(study: &SystemStudy, side: Option<&MotionSignature
 }
 
 /// One threshold; `unit` is that of the parameter.
-fn put(study: &SystemStudy, unit: &str, found: &MotionThreshold) -> Fields {
+fn put(study: &SystemStudy, unit: &str, found: &Threshold) -> Fields {
     let mut fields = Fields::of_system(study.units());
     fields
         .measured("value", unit, found.value)

@@ -1,9 +1,9 @@
 //! `thresholds --along`: curves of the thresholds of a base response in two parameters, and the boundaries of averaging.
 
-use quell_dynamics::motion::orbit::{
-    CurvesFound, MotionPlane, OpenLine, ThresholdCurve, ThresholdCurveEnd, motion_curves,
+use quell_dynamics::orbit::{
+    CurvesFound, OpenLine, ThresholdCurve, ThresholdCurveEnd, ThresholdKind, ThresholdPlane,
+    threshold_curves,
 };
-use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_linear::averaging::{Averaging, Becomes, DitheredSystem, critical_amplitudes};
 use quell_model::System;
 use quell_model::units::Quantity;
@@ -161,8 +161,8 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<Curves, Failu
         })?;
     }
     let (window, between) = (request.window, request.between);
-    let plane = MotionPlane { at: &at, window, between, points: POINTS };
-    let found = motion_curves(&plane, LINES)
+    let plane = ThresholdPlane { at: &at, window, between, points: POINTS };
+    let found = threshold_curves(&plane, LINES)
         .map_err(|line| failed("thresholds", line_in_words(study, request, &line)))?;
     let averaged = averaged(study, request, &at);
     let mut slip = SlipReached::new(study.system());

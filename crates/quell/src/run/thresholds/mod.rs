@@ -11,12 +11,10 @@ mod window;
 use std::sync::Mutex;
 
 use quell_dynamics::attractor::{RunOutcome, RunSwitches, VariedRun, values_tried};
-use quell_dynamics::motion::orbit::{
-    BASE_STEPS, MotionThresholds, NoMotionOrbit, base_motion, motion_thresholds, sliding_state,
-    sliding_verdict,
+use quell_dynamics::orbit::{
+    BASE_STEPS, BranchEnding, BranchThresholds, NoOrbit, OrbitVerdict, base_response,
+    branch_thresholds, sliding_state, sliding_verdict,
 };
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::BranchEnding;
 use quell_dynamics::response::dither_reaches_the_band;
 use quell_linear::growth::Verdict;
 use quell_model::System;
@@ -72,7 +70,7 @@ pub struct Thresholds {
     /// The request.
     pub request: ThresholdsRequest,
     /// The branch of motions and its changes of stability, or why no such branch exists.
-    pub local: Result<MotionThresholds, NoMotionOrbit>,
+    pub local: Result<BranchThresholds, NoOrbit>,
     /// Whether a base response exists at the last value although the branch ends before it.
     pub resumes: bool,
     /// The changes of each run.
@@ -150,9 +148,9 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
     let local = match &request.near {
         Some((numbers, periods)) => {
             let guess = start_with(study, numbers)?.state;
-            motion_thresholds(&at, (from, to), STEPS, Some((&guess, *periods)))
+            branch_thresholds(&at, (from, to), STEPS, Some((&guess, *periods)))
         }
-        None => motion_thresholds(&at, (from, to), STEPS, None),
+        None => branch_thresholds(&at, (from, to), STEPS, None),
     };
     if let Err(why) = &local
         && (request.protocols.is_empty() || request.near.is_some())
@@ -168,7 +166,7 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
     let ends = local.as_ref().is_ok_and(|local| local.ending != BranchEnding::Covered);
     let resumes = (local.is_err() || ends)
         && request.near.is_none()
-        && at(&[to]).is_ok_and(|system| base_motion(&system, BASE_STEPS).is_ok());
+        && at(&[to]).is_ok_and(|system| base_response(&system, BASE_STEPS).is_ok());
     let silent = Mutex::new(Vec::new());
     let runs = request.protocols.iter().map(|protocol| {
         let start = |value: f64, system: &System| {

@@ -1,9 +1,9 @@
 //! The answer of `thresholds` in sentences: where the base response is stable, and where runs from each start end quiet.
 
 use quell_dynamics::attractor::{RunSwitch, RunSwitches};
-use quell_dynamics::motion::orbit::{MotionThreshold, MotionThresholds, NoMotionOrbit};
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
+use quell_dynamics::orbit::{
+    BranchEnding, BranchThresholds, NoOrbit, OrbitVerdict, Threshold, ThresholdKind,
+};
 use quell_model::units::Quantity;
 
 use super::Thresholds;
@@ -163,7 +163,7 @@ impl Thresholds {
         sentences.join(" ")
     }
 
-    fn without_response(&self, parameter: &NamedParameter<'_>, why: &NoMotionOrbit) -> String {
+    fn without_response(&self, parameter: &NamedParameter<'_>, why: &NoOrbit) -> String {
         let first = parameter.at(self.request.window.0);
         let again = self.again(parameter).map_or(String::new(), |again| format!("; {again}"));
         format!("At {first} {} was not found: {why}{again}.", self.subject())
@@ -182,8 +182,8 @@ impl Thresholds {
     fn verdicts<'l>(
         &self,
         study: &SystemStudy,
-        local: &'l MotionThresholds,
-    ) -> (Vec<Interval<OrbitVerdict>>, Option<&'l MotionThreshold>) {
+        local: &'l BranchThresholds,
+    ) -> (Vec<Interval<OrbitVerdict>>, Option<&'l Threshold>) {
         let Some(first) = local.branch.first() else { return (Vec::new(), None) };
         let path = &self.request.parameter;
         let mut intervals = Vec::new();
@@ -208,7 +208,7 @@ impl Thresholds {
         (merged(intervals), None)
     }
 
-    fn of_the_response(&self, parameter: &NamedParameter<'_>, local: &MotionThresholds) -> String {
+    fn of_the_response(&self, parameter: &NamedParameter<'_>, local: &BranchThresholds) -> String {
         let subject = self.subject();
         let (intervals, end) = self.verdicts(parameter.study, local);
         let is_stable =
@@ -255,7 +255,7 @@ impl Thresholds {
     fn of_the_end(
         &self,
         parameter: &NamedParameter<'_>,
-        (end, ending): (Option<&MotionThreshold>, BranchEnding),
+        (end, ending): (Option<&Threshold>, BranchEnding),
         said_already: bool,
     ) -> String {
         let at = |value: f64| parameter.at(value);

@@ -1,8 +1,6 @@
 //! The base response under dither and its multipliers.
 
-use quell_dynamics::motion::orbit::family::NoImage;
-use quell_dynamics::motion::orbit::{BASE_STEPS, MotionOrbit, NoMotionOrbit, base_motion};
-use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::{BASE_STEPS, NoImage, NoOrbit, Orbit, OrbitVerdict, base_response};
 
 use crate::needs::Needs;
 use crate::sweep::map_quantity::{MapQuantity, RATIO, VERDICTS, variable};
@@ -33,7 +31,7 @@ const OF_ORBIT: &[Status] = &[
 const ORBIT: f64 = 3e-2;
 
 /// The base response.
-struct BaseOrbit(MotionOrbit);
+struct BaseOrbit(Orbit);
 
 impl BaseOrbit {
     fn verdict(&self) -> Result<f64, Status> {
@@ -52,10 +50,10 @@ impl PointComputation for BaseOrbit {
             if !system.is_dithered() {
                 return Err(Status::NoDither);
             }
-            let orbit = base_motion(system, BASE_STEPS).map_err(|why| match why {
-                NoMotionOrbit::NoDither => Status::NoDither,
-                NoMotionOrbit::NoSliding(_) => Status::NoSteadySliding,
-                NoMotionOrbit::NoImage(NoImage::Stopped(_)) => Status::Stalled,
+            let orbit = base_response(system, BASE_STEPS).map_err(|why| match why {
+                NoOrbit::NoDither => Status::NoDither,
+                NoOrbit::NoSliding(_) => Status::NoSteadySliding,
+                NoOrbit::NoImage(NoImage::Stopped(_)) => Status::Stalled,
                 _ => Status::NoBaseResponse,
             });
             orbit.map(Self)

@@ -13,16 +13,16 @@ use quell_numerics::continuation::curve::{BifurcationCurvePoint, Trace, trace};
 use quell_numerics::continuation::threshold::BifurcationKind;
 use quell_numerics::continuation::{Image, PeriodMap, modulus};
 
-use super::super::Motion;
-use super::family::{BorderGuard, MotionFamily, MotionSignature, NoImage, Shot, SystemAt, shot_of};
-use super::periodic::{motion_near, scale_of};
+use super::family::{BorderGuard, MotionSignature, NoImage, OrbitFamily, Shot, SystemAt, shot_of};
+use super::periodic::{near, scale_of};
 use super::threshold_curve::{
     CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
     part, passes, threshold_curve,
 };
-use super::thresholds::{MotionThreshold, criticality, fold_of, motion_thresholds};
-use crate::orbit::OrbitVerdict;
-use crate::orbit::threshold::{BranchEnding, ThresholdKind};
+use super::threshold_kind::{BranchEnding, ThresholdKind};
+use super::thresholds::{Threshold, branch_thresholds, criticality, fold_of};
+use super::verdict::OrbitVerdict;
+use crate::motion::Motion;
 
 /// Steps of the continuation runs that find the first points, at least. More find pairs of thresholds that lie closer together.
 const STEPS: u32 = 40;
@@ -43,7 +43,7 @@ const FIRST: f64 = -1e-9;
 const BEYOND: f64 = 1e-5;
 
 /// A system over a plane of two parameters, the first of which has thresholds.
-pub struct MotionPlane<'a> {
+pub struct ThresholdPlane<'a> {
     /// The system at both parameters.
     pub at: &'a SystemAt<'a>,
     /// Window of the first parameter.
@@ -58,7 +58,7 @@ pub struct MotionPlane<'a> {
 ///
 /// # Errors
 /// The last line, if no line has a base response to start from.
-pub fn motion_curves(plane: &MotionPlane<'_>, lines: u32) -> Result<CurvesFound, OpenLine> {
+pub fn threshold_curves(plane: &ThresholdPlane<'_>, lines: u32) -> Result<CurvesFound, OpenLine> {
     let (window, (first, last)) = (plane.window, plane.between);
     let lines = lines.max(1);
     let mut found: Vec<ThresholdCurve> = Vec::new();
@@ -69,7 +69,7 @@ pub fn motion_curves(plane: &MotionPlane<'_>, lines: u32) -> Result<CurvesFound,
         let along = first + (last - first) * (f64::from(line) + 0.5) / f64::from(lines);
         let mut leave_open = |why| open.push(OpenLine { along, why });
         let on_line = |values: &[f64]| (plane.at)(&[values[0], along]);
-        let searched = match motion_thresholds(&on_line, window, STEPS, None) {
+        let searched = match branch_thresholds(&on_line, window, STEPS, None) {
             Ok(searched) => searched,
             Err(why) => {
                 leave_open(Open::Begin(why));
@@ -108,14 +108,14 @@ pub fn motion_curves(plane: &MotionPlane<'_>, lines: u32) -> Result<CurvesFound,
     }
 }
 
-impl MotionPlane<'_> {
+impl ThresholdPlane<'_> {
     fn system(&self, value: f64, along: f64) -> Option<System> {
         (self.at)(&[value, along]).ok()
     }
 
-    fn family(&self, system: &System, state: &[f64]) -> Option<MotionFamily<'_>> {
+    fn family(&self, system: &System, state: &[f64]) -> Option<OrbitFamily<'_>> {
         let scale = scale_of(&Motion::new(system).ok()?, state);
-        Some(MotionFamily { at: self.at, periods: 1, size: state.len(), scale })
+        Some(OrbitFamily { at: self.at, periods: 1, size: state.len(), scale })
     }
 
     fn trace_options(&self) -> Trace {
@@ -125,11 +125,11 @@ impl MotionPlane<'_> {
     /// The curve of a multiplier.
     fn of_multiplier(
         &self,
-        found: &MotionThreshold,
+        found: &Threshold,
         kind: BifurcationKind,
         along: f64,
     ) -> Option<ThresholdCurve> {
-        let MotionThreshold { value, state, kind: name, signature, .. } = found;
+        let Threshold { value, state, kind: name, signature, .. } = found;
         let system = self.system(*value, along)?;
         let family = self.family(&system, state)?;
         let at = [*value, along];
@@ -152,8 +152,8 @@ impl MotionPlane<'_> {
     }
 
     /// The curve on which one contact grazes or opens.
-    fn of_contact(&self, found: &MotionThreshold, along: f64) -> Option<ThresholdCurve> {
-        let MotionThreshold { value, state, kind, signature, contacts, .. } = found;
+    fn of_contact(&self, found: &Threshold, along: f64) -> Option<ThresholdCurve> {
+        let Threshold { value, state, kind, signature, contacts, .. } = found;
         let system = self.system(*value, along)?;
         let family = self.family(&system, state)?;
         let is_load = *kind == ThresholdKind::Separation;
@@ -174,7 +174,7 @@ impl MotionPlane<'_> {
     }
 }
 
-impl MotionPlane<'_> {
+impl ThresholdPlane<'_> {
     /// What the normal form at a point of a curve of this kind says.
     fn form(&self, kind: ThresholdKind, point: &ThresholdCurvePoint) -> PointForm {
         let at = [point.value, point.along];
@@ -194,7 +194,7 @@ impl MotionPlane<'_> {
     /// The part of a grazing curve, around the line on which it was found, where the grazing changes the verdict.
     fn deciding_part(
         &self,
-        found: &MotionThreshold,
+        found: &Threshold,
         curve: ThresholdCurve,
         along: f64,
     ) -> ThresholdCurve {
@@ -210,7 +210,7 @@ impl MotionPlane<'_> {
     }
 
     /// The curve through a threshold, to the borders of the windows.
-    fn through(&self, found: &MotionThreshold, along: f64) -> Option<ThresholdCurve> {
+    fn through(&self, found: &Threshold, along: f64) -> Option<ThresholdCurve> {
         match found.kind {
             // A signature that changes without a grazing, and a branching, have no test function.
             _ if found.kind == ThresholdKind::Separation && found.contacts.is_empty() => None,
@@ -223,18 +223,18 @@ impl MotionPlane<'_> {
     /// no such response exists.
     fn with_events(
         &self,
-        found: &MotionThreshold,
+        found: &Threshold,
         (value, along): (f64, f64),
         state: &[f64],
     ) -> Option<OrbitVerdict> {
-        let orbit = motion_near(&self.system(value, along)?, state, 1).ok()?;
+        let orbit = near(&self.system(value, along)?, state, 1).ok()?;
         (orbit.signature != found.signature).then(|| orbit.verdict())
     }
 }
 
 /// A family whose distance is that of one contact from one of its events, or of contacts that graze together.
 pub(super) struct GuardedFamily<'a> {
-    pub(super) family: MotionFamily<'a>,
+    pub(super) family: OrbitFamily<'a>,
     pub(super) guards: Vec<BorderGuard>,
 }
 

@@ -20,31 +20,33 @@ use quell_model::{Belt, Direction};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 use super::collocation::{COLLOCATION, NODES, forces, least_of, weighted};
+use super::event::{Event, EventKind};
+use super::observer::{Observer, Segment};
 use crate::contraction::rates_along;
-use crate::simulation::{Event, EventKind, Observer, Segment};
 
 /// A 2 × 2 matrix, row by row.
 pub type Matrix2 = [[f64; 2]; 2];
 
 /// Integrates the matrix of changes along a run.
 #[derive(Clone, Debug)]
-pub(crate) struct Variation<'a> {
+pub struct Variation<'a> {
     belt: &'a Belt,
     /// Derivative of the final state with respect to the initial state.
-    pub(crate) matrix: Matrix2,
+    pub matrix: Matrix2,
     /// ∫(2ζ + μ′N) over slip.
-    pub(super) damping: f64,
+    pub damping: f64,
     /// Events in order, with the sign of v_r afterwards.
-    pub(super) events: Vec<(EventKind, i8)>,
+    pub events: Vec<(EventKind, i8)>,
     /// Least slip velocity in the direction of slip, and its time.
-    pub(crate) least: Option<(f64, f64)>,
+    pub least: Option<(f64, f64)>,
     /// Time spent in stick.
-    pub(super) stuck: f64,
+    pub stuck: f64,
     sign: i8,
 }
 
 impl<'a> Variation<'a> {
-    pub(crate) fn new(belt: &'a Belt) -> Self {
+    /// Of a run that begins.
+    pub fn new(belt: &'a Belt) -> Self {
         Self {
             belt,
             matrix: [[1.0, 0.0], [0.0, 1.0]],

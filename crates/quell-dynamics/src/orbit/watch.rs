@@ -7,8 +7,8 @@ use quell_linear::spectrum::spectrum;
 use quell_model::System;
 use quell_numerics::continuation::modulus;
 
-use super::super::Motion;
 use super::recurrence::NEAR;
+use crate::motion::Motion;
 
 /// Spans of a run, at whose ends its passages are compared, in the time that suffices for the slowest motion. Fewer find a cycle later;
 /// more only cost attempts.

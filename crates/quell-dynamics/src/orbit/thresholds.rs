@@ -1,7 +1,7 @@
 //! Values of a parameter at which the base response of a system gains or loses stability.
 //!
 //! The response is followed by pseudo-arclength continuation, around folds and through grazings of γ = 0 and N = 0
-//! ([`quell_numerics::continuation::branch`]), as for the belt ([`crate::orbit::threshold`]).
+//! ([`quell_numerics::continuation::branch`]): [`ThresholdKind`] says how.
 
 use quell_linear::criticality::of_steady_sliding;
 use quell_linear::pure_slip::period;
@@ -14,11 +14,11 @@ use quell_numerics::continuation::fold::{FoldCoefficient, fold_coefficient};
 use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::BifurcationKind;
 
-use super::super::Motion;
-use super::family::{BorderGuard, MotionFamily, MotionSignature, NoImage, SystemAt, shot_of};
-use super::periodic::{NoMotionOrbit, base_motion, scale_of, sliding_state};
-use crate::orbit::OrbitVerdict;
-use crate::orbit::threshold::{BranchEnding, ThresholdKind};
+use super::family::{BorderGuard, MotionSignature, NoImage, OrbitFamily, SystemAt, shot_of};
+use super::periodic::{NoOrbit, base_response, scale_of, sliding_state};
+use super::threshold_kind::{BranchEnding, ThresholdKind};
+use super::verdict::OrbitVerdict;
+use crate::motion::Motion;
 use crate::simulation::EventKind;
 
 /// Steps in which the base response is first continued from steady sliding.
@@ -35,7 +35,7 @@ const JUMP: f64 = 0.01;
 
 /// A value at which stability changes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MotionThreshold {
+pub struct Threshold {
     /// The parameter.
     pub value: f64,
     /// Bound on the error of the value.
@@ -63,7 +63,7 @@ pub struct MotionThreshold {
 
 /// A value at which the events of the response change.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MotionSignatureChange {
+pub struct SignatureChange {
     /// The parameter.
     pub value: f64,
     /// Events for slightly smaller values; `None` without a response.
@@ -74,7 +74,7 @@ pub struct MotionSignatureChange {
 
 /// A response on the branch.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MotionBranchPoint {
+pub struct BranchResponse {
     /// The parameter.
     pub value: f64,
     /// State at t = 0.
@@ -87,13 +87,13 @@ pub struct MotionBranchPoint {
 
 /// The thresholds in an interval, and the branch that contains them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MotionThresholds {
+pub struct BranchThresholds {
     /// Changes of stability, in the order of the branch.
-    pub thresholds: Vec<MotionThreshold>,
+    pub thresholds: Vec<Threshold>,
     /// Changes of the events, in the order of the branch.
-    pub changes: Vec<MotionSignatureChange>,
+    pub changes: Vec<SignatureChange>,
     /// The computed responses, in the order of the branch.
-    pub branch: Vec<MotionBranchPoint>,
+    pub branch: Vec<BranchResponse>,
     /// How the branch ends.
     pub ending: BranchEnding,
 }
@@ -102,26 +102,26 @@ pub struct MotionThresholds {
 /// parameter to another in at least `steps` steps.
 ///
 /// # Errors
-/// [`NoMotionOrbit`] if there is no such response at the first value.
-pub fn motion_thresholds(
+/// [`NoOrbit`] if there is no such response at the first value.
+pub fn branch_thresholds(
     at: &SystemAt<'_>,
     (from, to): (f64, f64),
     steps: u32,
     near: Option<(&[f64], u32)>,
-) -> Result<MotionThresholds, NoMotionOrbit> {
-    let invalid = |why| NoMotionOrbit::NoImage(NoImage::Invalid(why));
+) -> Result<BranchThresholds, NoOrbit> {
+    let invalid = |why| NoOrbit::NoImage(NoImage::Invalid(why));
     let first = at(&[from]).map_err(invalid)?;
     at(&[to]).map_err(invalid)?;
     if period_jumps(at, &first, (from, to)) {
-        return Err(NoMotionOrbit::NoImage(NoImage::PeriodJumps));
+        return Err(NoOrbit::NoImage(NoImage::PeriodJumps));
     }
     let (state, periods) = match near {
         Some((state, periods)) => (state.to_vec(), periods.max(1)),
         None => (first_state(&first)?, 1),
     };
-    let motion = Motion::new(&first).map_err(NoMotionOrbit::Immobile)?;
+    let motion = Motion::new(&first).map_err(NoOrbit::Immobile)?;
     let scale = scale_of(&motion, &state);
-    let family = MotionFamily { at, periods, size: state.len(), scale };
+    let family = OrbitFamily { at, periods, size: state.len(), scale };
     let branch = follow(&family, &state, from, to > from, Follow::window(from, to, steps))?;
     let mut thresholds = Vec::new();
     for point in &branch.special_points {
@@ -141,7 +141,7 @@ pub fn motion_thresholds(
             Some(border) => (border.signature, border.contacts),
             None => (side.signature.clone(), Vec::new()),
         };
-        thresholds.push(MotionThreshold {
+        thresholds.push(Threshold {
             value: point.parameter,
             error: point.error,
             kind,
@@ -157,13 +157,13 @@ pub fn motion_thresholds(
     }
     let changes = branch.special_points.iter().filter_map(signature_change).collect();
     let ending = BranchEnding::of(&branch, from, to);
-    let branch = branch.points.iter().map(|point| MotionBranchPoint {
+    let branch = branch.points.iter().map(|point| BranchResponse {
         value: point.parameter,
         state: point.state.clone(),
         radius: spectral_radius(&point.multipliers),
         signature: point.signature.clone(),
     });
-    Ok(MotionThresholds { thresholds, changes, branch: branch.collect(), ending })
+    Ok(BranchThresholds { thresholds, changes, branch: branch.collect(), ending })
 }
 
 /// Whether the period of the dithers has no derivative in the parameter: that of two frequencies, one of which varies.
@@ -173,22 +173,22 @@ fn period_jumps(at: &SystemAt<'_>, first: &System, (from, to): (f64, f64)) -> bo
     period(&next).is_none_or(|next| (next / here - 1.0).abs() > JUMP)
 }
 
-fn first_state(system: &System) -> Result<Vec<f64>, NoMotionOrbit> {
-    match base_motion(system, FIRST_STEPS) {
+fn first_state(system: &System) -> Result<Vec<f64>, NoOrbit> {
+    match base_response(system, FIRST_STEPS) {
         Ok(orbit) => Ok(orbit.state),
-        Err(NoMotionOrbit::NoDither) => sliding_state(system).map_err(NoMotionOrbit::NoSliding),
+        Err(NoOrbit::NoDither) => sliding_state(system).map_err(NoOrbit::NoSliding),
         Err(why) => Err(why),
     }
 }
 
-fn signature_change(point: &SpecialPoint<MotionSignature>) -> Option<MotionSignatureChange> {
+fn signature_change(point: &SpecialPoint<MotionSignature>) -> Option<SignatureChange> {
     let signature = |side: &Option<BranchSide<MotionSignature>>| {
         side.as_ref().map(|side| side.signature.clone())
     };
     let (below, above) = (signature(&point.below), signature(&point.above));
     let is_contact = matches!(point.kind, BifurcationKind::Grazing | BifurcationKind::Border);
     let value = point.parameter;
-    (is_contact && below != above).then_some(MotionSignatureChange { value, below, above })
+    (is_contact && below != above).then_some(SignatureChange { value, below, above })
 }
 
 /// A side of a special point.
@@ -228,7 +228,7 @@ fn verdict(
 
 /// The coefficient that decides whether the bifurcation is supercritical.
 pub(super) fn criticality(
-    family: &MotionFamily<'_>,
+    family: &OrbitFamily<'_>,
     kind: ThresholdKind,
     state: &[f64],
     parameters: &[f64],
@@ -244,7 +244,7 @@ pub(super) fn criticality(
 /// The coefficient that decides to which side a fold in the first parameter opens, whose window is `width` wide; `None` for other
 /// kinds.
 pub(super) fn fold_of(
-    family: &MotionFamily<'_>,
+    family: &OrbitFamily<'_>,
     kind: ThresholdKind,
     state: &[f64],
     parameters: &[f64],
@@ -266,7 +266,7 @@ struct MotionBorder {
 
 /// The border of a grazing point; `None` for other points.
 fn border_of(
-    family: &MotionFamily<'_>,
+    family: &OrbitFamily<'_>,
     point: &SpecialPoint<MotionSignature>,
 ) -> Option<MotionBorder> {
     if point.kind != BifurcationKind::Grazing {

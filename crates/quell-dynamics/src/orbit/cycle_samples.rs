@@ -2,11 +2,11 @@
 
 use quell_model::System;
 
-use crate::motion::orbit::MotionOrbit;
 use crate::motion::{
     ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionObserver,
     MotionSegment, MotionStart,
 };
+use crate::orbit::Orbit;
 use crate::simulation::ORDER;
 
 /// Number of sampling steps in a period.
@@ -54,7 +54,7 @@ const NO_RANGE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 impl CycleSamples {
     /// The samples of an orbit of a system, with the displacement that `row` observes.
-    pub fn of(system: &System, row: &[f64], orbit: &MotionOrbit) -> Self {
+    pub fn of(system: &System, row: &[f64], orbit: &Orbit) -> Self {
         Self::over(system, row, &orbit.state, orbit.period)
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Thresholds are found on a few lines across the second parameter and each is followed to the borders of the window. A
 //! threshold on a known curve is not followed again. A curve that crosses none of the lines is missed.
-//! The scheme is that of [`quell_numerics::continuation::curve`]; [`motion_curves`](super::motion_curves) finds them.
+//! The scheme is that of [`quell_numerics::continuation::curve`]; [`threshold_curves`](super::threshold_curves) finds them.
 
 use std::fmt;
 
@@ -13,8 +13,8 @@ use quell_numerics::continuation::curve::{
 use quell_numerics::continuation::fold::FoldCoefficient;
 use quell_numerics::continuation::spectral_radius;
 
-use super::NoMotionOrbit;
-use crate::orbit::threshold::ThresholdKind;
+use super::NoOrbit;
+use super::threshold_kind::ThresholdKind;
 
 /// A threshold on a curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,7 +119,7 @@ pub struct OpenLine {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Open {
     /// There is no response to start from.
-    Begin(NoMotionOrbit),
+    Begin(NoOrbit),
     /// The response was lost before the end of the line.
     Lost {
         /// The last value of the first parameter at which it was found.

@@ -16,14 +16,16 @@ use quell_model::System;
 use quell_numerics::continuation::modulus;
 use quell_numerics::eigen::Decomposition;
 
-use super::super::{MOTION_TOLERANCE, Motion, MotionStart, MotionStopped, PlannedMotion, run_many};
 use super::family::{NoImage, shot, time_of};
-use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, orbit_at, scale_of};
+use super::periodic::{NoOrbit, Orbit, near, orbit_at, scale_of};
 use super::recurrence::{NEAR, ON_IT, SAME, distance, returns};
 use super::transient;
+use super::verdict::OrbitVerdict;
 use crate::band::is_quiet;
 use crate::decay::decays_at;
-use crate::orbit::OrbitVerdict;
+use crate::motion::{
+    MOTION_TOLERANCE, Motion, MotionStart, MotionStopped, PlannedMotion, run_many,
+};
 
 /// Common periods after which a run that no longer changes counts as one that does not repeat itself. Next to a border between basins
 /// of attraction a run dwells at an unstable motion first, the longer the nearer the border: 5000 periods at a relative distance of
@@ -68,7 +70,7 @@ const PART: f64 = 1e-8;
 #[derive(Clone, Debug)]
 pub struct SettledMotion {
     /// The periodic motion.
-    pub orbit: MotionOrbit,
+    pub orbit: Orbit,
     /// Common dither periods in its period.
     pub multiple: u32,
     /// Common dither periods that the run took to reach its neighbourhood: it then is near the state of the orbit.
@@ -85,9 +87,9 @@ impl SettledMotion {
 /// The periodic motion on which a run from a state at t = 0 ends: the one judge of it for every verb.
 ///
 /// # Errors
-/// [`NoMotionOrbit::Unsettled`] where no such motion is found.
-pub fn settled(system: &System, start: &[f64]) -> Result<SettledMotion, NoMotionOrbit> {
-    let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
+/// [`NoOrbit::Unsettled`] where no such motion is found.
+pub fn settled(system: &System, start: &[f64]) -> Result<SettledMotion, NoOrbit> {
+    let motion = Motion::new(system).map_err(NoOrbit::Immobile)?;
     let mut search = EndSearch::new(&motion, start)?;
     loop {
         search.run.go_to(search.next)?;
@@ -101,17 +103,14 @@ pub fn settled(system: &System, start: &[f64]) -> Result<SettledMotion, NoMotion
 ///
 /// # Errors
 /// Those of [`settled`], of each start.
-pub fn settled_many(
-    system: &System,
-    starts: &[Vec<f64>],
-) -> Vec<Result<SettledMotion, NoMotionOrbit>> {
+pub fn settled_many(system: &System, starts: &[Vec<f64>]) -> Vec<Result<SettledMotion, NoOrbit>> {
     let motion = match Motion::new(system) {
         Ok(motion) => motion,
         Err(why) => {
-            return starts.iter().map(|_| Err(NoMotionOrbit::Immobile(why.clone()))).collect();
+            return starts.iter().map(|_| Err(NoOrbit::Immobile(why.clone()))).collect();
         }
     };
-    let mut ends: Vec<Option<Result<SettledMotion, NoMotionOrbit>>> = Vec::new();
+    let mut ends: Vec<Option<Result<SettledMotion, NoOrbit>>> = Vec::new();
     ends.resize_with(starts.len(), || None);
     let mut searches: Vec<(usize, EndSearch<'_, '_>)> = Vec::new();
     for (place, start) in starts.iter().enumerate() {
@@ -124,7 +123,7 @@ pub fn settled_many(
         let mut stopped = go_on_side_by_side(&mut searches);
         searches.retain_mut(|(place, search)| {
             let end = match stopped.iter_mut().find(|(other, _)| other == place) {
-                Some((_, why)) => Some(Err(NoMotionOrbit::NoImage(NoImage::Stopped(why.clone())))),
+                Some((_, why)) => Some(Err(NoOrbit::NoImage(NoImage::Stopped(why.clone())))),
                 None => search.judged().unwrap_or_else(|why| Some(Err(why))),
             };
             let goes_on = end.is_none();
@@ -175,8 +174,8 @@ struct EndSearch<'a, 's> {
 }
 
 impl<'a, 's> EndSearch<'a, 's> {
-    fn new(motion: &'a Motion<'s>, start: &[f64]) -> Result<Self, NoMotionOrbit> {
-        let period = time_of(motion, 1).map_err(NoMotionOrbit::NoImage)?;
+    fn new(motion: &'a Motion<'s>, start: &[f64]) -> Result<Self, NoOrbit> {
+        let period = time_of(motion, 1).map_err(NoOrbit::NoImage)?;
         Ok(Self {
             run: Strobed { motion, period, states: vec![start.to_vec()] },
             next: FIRST_ATTEMPT,
@@ -184,7 +183,7 @@ impl<'a, 's> EndSearch<'a, 's> {
     }
 
     /// Where the run ends, if that is certain at the period it has reached, or that it is given up.
-    fn judged(&mut self) -> Result<Option<Result<SettledMotion, NoMotionOrbit>>, NoMotionOrbit> {
+    fn judged(&mut self) -> Result<Option<Result<SettledMotion, NoOrbit>>, NoOrbit> {
         if let Some(found) = self.run.ends_on()? {
             return Ok(Some(Ok(found)));
         }
@@ -193,7 +192,7 @@ impl<'a, 's> EndSearch<'a, 's> {
         if is_steady || periods >= MOST_PERIODS {
             let states = &mut self.run.states;
             let last = states.split_off(states.len().saturating_sub(KEPT));
-            return Ok(Some(Err(NoMotionOrbit::Unsettled { periods, last, is_steady })));
+            return Ok(Some(Err(NoOrbit::Unsettled { periods, last, is_steady })));
         }
         // A look is taken at the least number of periods exactly.
         let milestone = if periods < LEAST_PERIODS { LEAST_PERIODS } else { MOST_PERIODS };
@@ -225,12 +224,12 @@ impl Strobed<'_, '_> {
     }
 
     /// Continues to a number of periods.
-    fn go_to(&mut self, periods: u32) -> Result<(), NoMotionOrbit> {
+    fn go_to(&mut self, periods: u32) -> Result<(), NoOrbit> {
         let mut from = MotionStart { time: self.time(), state: self.last().to_vec() };
         for count in self.periods() + 1..=periods {
             let until = f64::from(count) * self.period;
             let end = self.motion.run(&from, until, MOTION_TOLERANCE, &mut ());
-            let end = end.map_err(|why| NoMotionOrbit::NoImage(NoImage::Stopped(why)))?;
+            let end = end.map_err(|why| NoOrbit::NoImage(NoImage::Stopped(why)))?;
             from = end.restart();
             self.states.push(end.state);
         }
@@ -238,7 +237,7 @@ impl Strobed<'_, '_> {
     }
 
     /// The motion near the last states on which the run ends. Looking for it continues the run.
-    fn ends_on(&mut self) -> Result<Option<SettledMotion>, NoMotionOrbit> {
+    fn ends_on(&mut self) -> Result<Option<SettledMotion>, NoOrbit> {
         let scale = scale_of(self.motion, self.last());
         let earlier = self.states.iter().rev().skip(1).take(MOST_MULTIPLES);
         let found = returns(self.last(), earlier.map(Vec::as_slice));
@@ -267,10 +266,10 @@ impl Strobed<'_, '_> {
         multiple: u32,
         mismatch: f64,
         scale: f64,
-    ) -> Option<(MotionOrbit, u32)> {
+    ) -> Option<(Orbit, u32)> {
         let system = self.motion.system();
         let near = |guess: &[f64], multiple| {
-            let orbit = motion_near(system, guess, multiple).ok()?;
+            let orbit = near(system, guess, multiple).ok()?;
             (distance(&orbit.state, guess) <= SAME * scale).then_some(orbit)
         };
         let found = near(guess, multiple).or_else(|| {
@@ -294,12 +293,7 @@ impl Strobed<'_, '_> {
     }
 
     /// Whether the run, which goes on, reaches a motion near its last state, or approaches it at the rate of its multipliers.
-    fn approaches(
-        &mut self,
-        orbit: &MotionOrbit,
-        multiple: u32,
-        scale: f64,
-    ) -> Result<bool, NoMotionOrbit> {
+    fn approaches(&mut self, orbit: &Orbit, multiple: u32, scale: f64) -> Result<bool, NoOrbit> {
         let is_stable = match orbit.verdict() {
             OrbitVerdict::Stable => true,
             OrbitVerdict::Unstable => return Ok(false),
@@ -341,7 +335,7 @@ impl Strobed<'_, '_> {
 
 /// The left vector of the largest multiplier: the product with it of the distance from the motion shrinks by that multiplier in each
 /// period, without the fluctuation that the other multipliers and a rotation cause in the distance itself.
-fn slowest_direction(motion: &Motion<'_>, orbit: &MotionOrbit) -> Option<Vec<Complex64>> {
+fn slowest_direction(motion: &Motion<'_>, orbit: &Orbit) -> Option<Vec<Complex64>> {
     let (image, _) = shot(motion, &orbit.state, orbit.period, None).ok()?;
     let decomposition = Decomposition::new(&image.derivative).ok()?;
     let values = decomposition.values();

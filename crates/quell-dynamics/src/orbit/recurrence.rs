@@ -1,7 +1,7 @@
 //! Runs that come back near one of their own states: when Newton's method may close an orbit there, and whether the orbit is the
 //! one on which the run ends.
 
-use super::super::MOTION_TOLERANCE;
+use crate::motion::MOTION_TOLERANCE;
 
 /// Mismatch of two states, relative to their size, below which Newton's method is tried. A larger value costs attempts that fail,
 /// a smaller one only time until the run is nearer.

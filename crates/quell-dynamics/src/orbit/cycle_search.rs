@@ -2,8 +2,8 @@
 
 use quell_model::System;
 
-use super::{MotionOrbit, base_motion, free_cycle, limit_cycles, sliding_state};
-use crate::orbit::OrbitVerdict;
+use super::verdict::OrbitVerdict;
+use super::{Orbit, base_response, free_cycle, limit_cycles, sliding_state};
 
 /// Velocities of kicked starts, over that of the surface: at 1 the contact moves with it.
 const KICKS: [f64; 3] = [1.0, 0.5, 2.0];
@@ -33,7 +33,7 @@ pub struct TriedStart {
 #[derive(Clone, Debug)]
 pub struct CycleSearch {
     /// The cycle and the start of the run that reached it, in words.
-    pub found: Option<(MotionOrbit, String)>,
+    pub found: Option<(Orbit, String)>,
     /// The starts that reached none.
     pub tried: Vec<TriedStart>,
 }
@@ -158,7 +158,7 @@ pub fn squealing_state(system: &System) -> Result<Vec<f64>, String> {
 /// # Errors
 /// Why it does not exist.
 pub fn base_state(system: &System) -> Result<Vec<f64>, String> {
-    let found = base_motion(system, BASE_STEPS);
+    let found = base_response(system, BASE_STEPS);
     found.map(|orbit| orbit.state).map_err(|why| format!("another state: {why}"))
 }
 

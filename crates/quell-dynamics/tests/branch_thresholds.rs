@@ -1,11 +1,10 @@
 //! Thresholds of systems with several contacts: the grazing of a further contact, and contacts that graze together.
 
-use quell_dynamics::motion::orbit::{
-    MotionPlane, MotionThreshold, motion_curves, motion_near, motion_thresholds,
-};
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
+use quell_dynamics::orbit::{
+    BranchEnding, OrbitVerdict, Threshold, ThresholdKind, ThresholdPlane, branch_thresholds, near,
+    threshold_curves,
+};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::{LawKind, System, Waveform};
@@ -48,9 +47,9 @@ fn two_masses(amplitude: f64, speeds: [f64; 2]) -> System {
     }
 }
 
-fn thresholds(speeds: [f64; 2], window: (f64, f64)) -> Vec<MotionThreshold> {
+fn thresholds(speeds: [f64; 2], window: (f64, f64)) -> Vec<Threshold> {
     let at = |values: &[f64]| Ok(two_masses(values[0], speeds));
-    let found = motion_thresholds(&at, window, 40, None).expect("a base response");
+    let found = branch_thresholds(&at, window, 40, None).expect("a base response");
     assert_eq!(found.ending, BranchEnding::Covered, "{window:?}");
     found.thresholds
 }
@@ -69,7 +68,7 @@ fn the_grazing_of_a_further_contact_is_one_of_that_contact() {
         assert_eq!(found.becomes, Some(OrbitVerdict::Stable));
         for (offset, is_beyond) in [(-1e-6, false), (1e-6, true)] {
             let system = two_masses(found.value + offset, speeds);
-            let orbit = motion_near(&system, &found.state, 1).expect("an orbit");
+            let orbit = near(&system, &found.state, 1).expect("an orbit");
             assert!(orbit.events.iter().any(|event| event.contact == 0));
             let has_event = orbit.events.iter().any(|event| event.contact == 1);
             assert_eq!(has_event, is_beyond, "{window:?} {offset}");
@@ -86,7 +85,7 @@ fn equal_contacts_graze_together() {
         let [found] = found.as_slice() else { panic!("{window:?}: {found:?}") };
         assert_eq!((found.kind, &found.contacts), (ThresholdKind::Grazing, &vec![0, 1]));
         assert!((found.value - 1.442_597_910).abs() < 1e-8, "{found:?}");
-        let orbit = motion_near(&two_masses(found.value + 0.02, [0.3; 2]), &found.state, 1);
+        let orbit = near(&two_masses(found.value + 0.02, [0.3; 2]), &found.state, 1);
         let orbit = orbit.expect("an orbit");
         let h = 1e-6;
         let system = two_masses(found.value + 0.02, [0.3; 2]);
@@ -114,8 +113,9 @@ fn grazings_of_named_contacts_are_followed() {
     for (equal, contacts) in [(false, vec![1]), (true, vec![0, 1])] {
         let speeds = |along: f64| [if equal { along } else { 0.1 }, along];
         let at = |values: &[f64]| Ok(two_masses(values[0], speeds(values[1])));
-        let plane = MotionPlane { at: &at, window: (0.8, 2.0), between: (0.28, 0.32), points: 10 };
-        let found = motion_curves(&plane, 1).expect("curves");
+        let plane =
+            ThresholdPlane { at: &at, window: (0.8, 2.0), between: (0.28, 0.32), points: 10 };
+        let found = threshold_curves(&plane, 1).expect("curves");
         assert!(found.open.is_empty(), "{:?}", found.open);
         let [curve] = found.curves.as_slice() else { panic!("{:?}", found.curves) };
         assert_eq!((curve.kind, &curve.contacts), (ThresholdKind::Grazing, &contacts));

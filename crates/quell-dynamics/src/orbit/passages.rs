@@ -3,7 +3,7 @@
 
 use quell_numerics::polynomial::derivative;
 
-use super::super::{MotionEvent, MotionObserver, MotionSegment, RecordedEvent};
+use crate::motion::{MotionEvent, MotionObserver, MotionSegment, RecordedEvent};
 use crate::simulation::EventKind;
 
 /// Watches a run: passages through the section, and states between events.

@@ -8,26 +8,26 @@ use quell_numerics::continuation::sensitivity::{
 };
 use quell_numerics::continuation::threshold::BifurcationKind;
 
-use super::super::Motion;
 use super::curves::GuardedFamily;
-use super::family::{BorderGuard, MotionFamily, SystemAt};
+use super::family::{BorderGuard, OrbitFamily, SystemAt};
 use super::periodic::scale_of;
-use super::thresholds::MotionThreshold;
-use crate::orbit::threshold::ThresholdKind;
+use super::threshold_kind::ThresholdKind;
+use super::thresholds::Threshold;
+use crate::motion::Motion;
 
 /// The derivatives of thresholds of the base response that meet (of one, mostly). `parameters` are first those that they determine, one
 /// for each, then those by which they are differentiated; `sizes` are typical sizes of all of them, above zero.
 ///
 /// # Errors
 /// [`NoSensitivity`]; [`NoSensitivity::OtherKind`] for a threshold without a test function, and where two grazings meet.
-pub fn motion_sensitivity(
+pub fn sensitivity_of_threshold(
     at: &SystemAt<'_>,
-    met: &[&MotionThreshold],
+    met: &[&Threshold],
     parameters: &[f64],
     sizes: &[f64],
 ) -> Result<ThresholdSensitivity, NoSensitivity> {
     let is_contact = |kind| matches!(kind, ThresholdKind::Grazing | ThresholdKind::Separation);
-    let touching: Vec<&&MotionThreshold> =
+    let touching: Vec<&&Threshold> =
         met.iter().filter(|threshold| is_contact(threshold.kind)).collect();
     let first = touching.first().copied().or(met.first()).ok_or(NoSensitivity::OtherKind)?;
     let guards: Vec<BorderGuard> = touching
@@ -48,7 +48,7 @@ pub fn motion_sensitivity(
     let system = at(parameters).map_err(|_| NoSensitivity::OtherEvents)?;
     let motion = Motion::new(&system).map_err(|_| NoSensitivity::OtherEvents)?;
     let scale = scale_of(&motion, &first.state);
-    let family = MotionFamily { at, periods: 1, size: first.state.len(), scale };
+    let family = OrbitFamily { at, periods: 1, size: first.state.len(), scale };
     let point = ThresholdPoint {
         kinds: &kinds,
         held: &first.signature,

@@ -10,11 +10,11 @@ use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 use quell_numerics::continuation::{modulus, multipliers, spectral_radius};
 use quell_numerics::matrix::Matrix;
 
-use super::super::own_state::in_steady_sliding;
-use super::super::{Immobile, MOTION_TOLERANCE, Motion, RecordedEvent};
 pub(crate) use super::family::scale_of;
-use super::family::{MotionFamily, MotionSignature, NoImage, shot, shot_within, time_of};
-use crate::orbit::OrbitVerdict;
+use super::family::{MotionSignature, NoImage, OrbitFamily, shot, shot_within, time_of};
+use super::verdict::OrbitVerdict;
+use crate::motion::in_steady_sliding;
+use crate::motion::{Immobile, MOTION_TOLERANCE, Motion, RecordedEvent};
 
 /// Accuracy of an image, relative to the size of the state.
 const NOISE: f64 = MOTION_TOLERANCE;
@@ -24,8 +24,8 @@ const NOISE: f64 = MOTION_TOLERANCE;
 const COARSE_TOLERANCE: f64 = 1e3 * MOTION_TOLERANCE;
 
 /// A periodic motion.
-#[derive(Clone, Debug)]
-pub struct MotionOrbit {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orbit {
     /// State at t = 0.
     pub state: Vec<f64>,
     /// Period.
@@ -52,7 +52,7 @@ pub struct MotionOrbit {
     judged: OrbitVerdict,
 }
 
-impl MotionOrbit {
+impl Orbit {
     /// Modulus of the multiplier that decides: the largest, without the 1 of a free phase.
     pub fn radius(&self) -> f64 {
         spectral_radius(&deciding(&self.multipliers, self.is_free))
@@ -78,7 +78,7 @@ fn deciding(multipliers: &[Complex64], is_free: bool) -> Vec<Complex64> {
 
 /// Why no periodic motion was found.
 #[derive(Clone, Debug, PartialEq)]
-pub enum NoMotionOrbit {
+pub enum NoOrbit {
     /// There is no dither: the response has no period of its own.
     NoDither,
     /// The motion cannot be computed.
@@ -94,6 +94,15 @@ pub enum NoMotionOrbit {
         /// Least mismatch.
         residual: f64,
     },
+    /// A multiplier is 1 to rounding, so that Newton's step is undefined.
+    Degenerate {
+        /// Number of steps.
+        steps: u32,
+        /// Mismatch there.
+        residual: f64,
+    },
+    /// The derivative of the period map is not finite: the motion is too large for its numbers.
+    NoMultipliers,
     /// The base response ends before the dither reaches its amplitude.
     Ends {
         /// Fraction of the amplitude up to which it exists.
@@ -115,7 +124,7 @@ pub enum NoMotionOrbit {
     },
 }
 
-impl fmt::Display for NoMotionOrbit {
+impl fmt::Display for NoOrbit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoDither => f.write_str("without dither the response has no prescribed period"),
@@ -128,14 +137,21 @@ impl fmt::Display for NoMotionOrbit {
                     "shooting did not converge in {steps} steps: least mismatch {residual:.1e}"
                 )
             }
+            Self::Degenerate { steps, residual } => write!(
+                f,
+                "shooting stopped after {steps} steps with a mismatch of {residual:.1e}: a multiplier is 1 there"
+            ),
+            Self::NoMultipliers => {
+                f.write_str("the derivative of the motion over a period is not finite")
+            }
             Self::Ends { share } => write!(
                 f,
-                "the response that continues steady sliding ends at {:.4} % of the dither amplitude",
+                "the base response ends at {:.4} % of the dither amplitude",
                 100.0 * share
             ),
             Self::Lost { share } => write!(
                 f,
-                "the response that continues steady sliding was lost at {:.4} % of the dither amplitude",
+                "the base response could not be followed beyond {:.4} % of the dither amplitude",
                 100.0 * share
             ),
             Self::Unsettled { periods, is_steady: true, .. } => {
@@ -155,16 +171,23 @@ impl fmt::Display for NoMotionOrbit {
     }
 }
 
-impl std::error::Error for NoMotionOrbit {}
+impl std::error::Error for NoOrbit {}
 
-impl From<NotClosed<NoImage>> for NoMotionOrbit {
+impl NoOrbit {
+    /// Whether the base response does not exist, as opposed to not having been found.
+    pub fn is_absence(&self) -> bool {
+        matches!(self, Self::Ends { .. } | Self::Degenerate { .. })
+    }
+}
+
+impl From<NotClosed<NoImage>> for NoOrbit {
     fn from(why: NotClosed<NoImage>) -> Self {
         match why {
             NotClosed::TooManySteps { steps, residual, .. }
-            | NotClosed::Singular { steps, residual, .. }
             | NotClosed::Strayed { steps, distance: residual, .. } => {
                 Self::NotConverged { steps, residual }
             }
+            NotClosed::Singular { steps, residual, .. } => Self::Degenerate { steps, residual },
             NotClosed::NoImage { why, .. } => Self::NoImage(why),
         }
     }
@@ -176,13 +199,12 @@ pub(crate) fn orbit_at(
     state: &[f64],
     period: f64,
     is_free: bool,
-) -> Result<MotionOrbit, NoMotionOrbit> {
-    let (image, met) = shot(motion, state, period, None).map_err(NoMotionOrbit::NoImage)?;
+) -> Result<Orbit, NoOrbit> {
+    let (image, met) = shot(motion, state, period, None).map_err(NoOrbit::NoImage)?;
     let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let mismatch: Vec<f64> = image.state.iter().zip(state).map(|(to, from)| to - from).collect();
     let residual = largest(&mismatch);
-    let found =
-        multipliers(&image.derivative).ok_or(NoMotionOrbit::NotConverged { steps: 0, residual })?;
+    let found = multipliers(&image.derivative).ok_or(NoOrbit::NoMultipliers)?;
     let size = largest(state).max(f64::MIN_POSITIVE);
     let noise = residual + NOISE * size;
     let others = deciding(&found, is_free);
@@ -197,7 +219,7 @@ pub(crate) fn orbit_at(
     let coarse = coarse.map_or(radius, |coarse| spectral_radius(&deciding(&coarse, is_free)));
     let verdicts = [radius, coarse].map(|radius| OrbitVerdict::of(radius, by_state));
     let judged = if verdicts[0] == verdicts[1] { verdicts[0] } else { OrbitVerdict::Undecided };
-    Ok(MotionOrbit {
+    Ok(Orbit {
         state: state.to_vec(),
         period,
         residual,
@@ -216,27 +238,23 @@ pub(crate) fn orbit_at(
 /// The orbit of `periods` common periods near a state at t = 0.
 ///
 /// # Errors
-/// [`NoMotionOrbit`].
-pub fn motion_near(
-    system: &System,
-    guess: &[f64],
-    periods: u32,
-) -> Result<MotionOrbit, NoMotionOrbit> {
-    let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
+/// [`NoOrbit`].
+pub fn near(system: &System, guess: &[f64], periods: u32) -> Result<Orbit, NoOrbit> {
+    let motion = Motion::new(system).map_err(NoOrbit::Immobile)?;
     let period = period_of(&motion, periods)?;
     let at = |_: &[f64]| Ok(system.clone());
     let scale = scale_of(&motion, guess);
-    let family = MotionFamily { at: &at, periods, size: guess.len(), scale };
+    let family = OrbitFamily { at: &at, periods, size: guess.len(), scale };
     let found = fixed_point(&family, guess, &[], None, &Shooting::default())?;
     orbit_at(&motion, &found.state, period, false)
 }
 
 /// The common period, of a system that has one.
-pub(super) fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMotionOrbit> {
+pub(super) fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoOrbit> {
     if !motion.system().has_waves() {
-        return Err(NoMotionOrbit::NoDither);
+        return Err(NoOrbit::NoDither);
     }
-    time_of(motion, periods.max(1)).map_err(NoMotionOrbit::NoImage)
+    time_of(motion, periods.max(1)).map_err(NoOrbit::NoImage)
 }
 
 /// Shares of the dither on both sides of 1 between which a branch that changes there may be lost: the response at 1 is then sought from
@@ -248,11 +266,11 @@ const NEXT_TO_A_CHANGE: f64 = 1e-4;
 /// all amplitudes in at least `steps` steps.
 ///
 /// # Errors
-/// [`NoMotionOrbit`].
-pub fn base_motion(system: &System, steps: u32) -> Result<MotionOrbit, NoMotionOrbit> {
-    let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
+/// [`NoOrbit`].
+pub fn base_response(system: &System, steps: u32) -> Result<Orbit, NoOrbit> {
+    let motion = Motion::new(system).map_err(NoOrbit::Immobile)?;
     let period = period_of(&motion, 1)?;
-    let sliding = sliding_state(system).map_err(NoMotionOrbit::NoSliding)?;
+    let sliding = sliding_state(system).map_err(NoOrbit::NoSliding)?;
     let grown = |to: f64| grown(&motion, &sliding, (to, steps));
     let why = match grown(1.0) {
         Ok(Ok(state)) => return orbit_at(&motion, &state, period, false),
@@ -260,7 +278,7 @@ pub fn base_motion(system: &System, steps: u32) -> Result<MotionOrbit, NoMotionO
         Ok(Err((why, _))) | Err(why) => return Err(why),
     };
     match grown(1.0 + NEXT_TO_A_CHANGE) {
-        Ok(Ok(state)) => motion_near(system, &state, 1).map_err(|_| why),
+        Ok(Ok(state)) => near(system, &state, 1).map_err(|_| why),
         _ => Err(why),
     }
 }
@@ -271,22 +289,22 @@ fn grown(
     motion: &Motion<'_>,
     sliding: &[f64],
     (to, steps): (f64, u32),
-) -> Result<Result<Vec<f64>, (NoMotionOrbit, f64)>, NoMotionOrbit> {
+) -> Result<Result<Vec<f64>, (NoOrbit, f64)>, NoOrbit> {
     let at = |factor: &[f64]| Ok(motion.system().with_amplitudes_scaled(factor[0]));
     let scale = scale_of(motion, sliding);
-    let family = MotionFamily { at: &at, periods: 1, size: sliding.len(), scale };
+    let family = OrbitFamily { at: &at, periods: 1, size: sliding.len(), scale };
     let options = Follow::window(0.0, to, steps).only_forwards();
     let branch = follow(&family, sliding, 0.0, true, options)?;
     let turns = branch.special_points.iter().find(|point| point.is_turn());
     let why = match (turns, branch.end) {
-        (Some(turn), _) => NoMotionOrbit::Ends { share: turn.parameter },
+        (Some(turn), _) => NoOrbit::Ends { share: turn.parameter },
         (None, End::Window { at }) if at == to => {
-            let last = branch.points.last().ok_or(NoMotionOrbit::Ends { share: 0.0 })?;
+            let last = branch.points.last().ok_or(NoOrbit::Ends { share: 0.0 })?;
             return Ok(Ok(last.state.clone()));
         }
-        (None, End::Grazing { at } | End::TurnsBack { at }) => NoMotionOrbit::Ends { share: at },
-        (None, End::Lost { at } | End::TooLong { at }) => NoMotionOrbit::Lost { share: at },
-        (None, End::Window { .. } | End::Closed) => NoMotionOrbit::Ends { share: 0.0 },
+        (None, End::Grazing { at } | End::TurnsBack { at }) => NoOrbit::Ends { share: at },
+        (None, End::Lost { at } | End::TooLong { at }) => NoOrbit::Lost { share: at },
+        (None, End::Window { .. } | End::Closed) => NoOrbit::Ends { share: 0.0 },
     };
     let changes_at = branch.special_points.last().map_or(0.0, |point| point.parameter);
     Ok(Err((why, changes_at)))

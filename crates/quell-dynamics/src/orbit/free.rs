@@ -14,18 +14,18 @@ use std::fmt;
 use quell_model::System;
 use quell_numerics::matrix::Matrix;
 
-use super::super::{
+use super::approach::ApproachToSliding;
+use super::cycle::cycles;
+use super::family::{MotionSignature, shot};
+use super::passages::Passages;
+use super::periodic::{Orbit, orbit_at, scale_of};
+use super::recurrence::{COARSE, NEAR, ON_IT, SAME, STAGNANT, distance, nearest_return};
+use super::verdict::OrbitVerdict;
+use super::watch::{MOST_STEPS, PASSAGES, WatchLengths};
+use crate::motion::{
     ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionSegment,
     MotionStart, MotionStopped,
 };
-use super::approach::ApproachToSliding;
-use super::family::{MotionSignature, shot};
-use super::passages::Passages;
-use super::periodic::{MotionOrbit, orbit_at, scale_of};
-use super::recurrence::{COARSE, NEAR, ON_IT, SAME, STAGNANT, distance, nearest_return};
-use super::watch::{MOST_STEPS, PASSAGES, WatchLengths};
-use crate::orbit::OrbitVerdict;
-use crate::orbit::cycle::cycles;
 
 /// Passages in a period that are tried.
 const MOST_PASSAGES: usize = 8;
@@ -136,7 +136,7 @@ impl std::error::Error for NoCycle {}
 ///
 /// # Errors
 /// [`NoCycle`], with what was tried.
-pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle> {
+pub fn free_cycle(system: &System, start: &[f64]) -> Result<Orbit, NoCycle> {
     if system.is_dithered() {
         return Err(NoCycle::Dithered);
     }
@@ -195,14 +195,14 @@ pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle
 
 /// Every limit cycle of a system of one mass without its dither, stable or not, the largest first, by the map of its sizes
 /// ([`cycles`]); `None` of other systems, and where the map cannot be computed.
-pub fn limit_cycles(system: &System) -> Option<Vec<MotionOrbit>> {
+pub fn limit_cycles(system: &System) -> Option<Vec<Orbit>> {
     let free = system.undithered();
     let mass = free.one_mass()?;
     let motion = Motion::new(&free).ok()?;
     let found = cycles(mass.belt()).ok()?;
     let reported = found.iter().map(|cycle| {
         let period = cycle.period / mass.rate();
-        let lowest = mass.state(cycle.start.displacement, cycle.start.velocity).to_vec();
+        let lowest = mass.state(cycle.state[0], cycle.state[1]).to_vec();
         let start = MotionStart { time: 0.0, state: lowest };
         // Away from the section, which the lowest point may be on.
         let away = motion.run(&start, 0.25 * period, MOTION_TOLERANCE, &mut ()).ok()?;
@@ -223,7 +223,7 @@ struct Returns {
 
 impl Returns {
     /// The cycle near passages that nearly repeat, if the run ends on it.
-    fn cycle(&mut self, motion: &Motion<'_>, passages: &Passages) -> Option<MotionOrbit> {
+    fn cycle(&mut self, motion: &Motion<'_>, passages: &Passages) -> Option<Orbit> {
         self.allowed = NEAR.min(RELAXED * self.allowed);
         let (last, before) = passages.events.split_last()?;
         let scale = scale_of(motion, &last.state);
@@ -248,12 +248,7 @@ impl Returns {
 }
 
 /// The cycle near the last passages, which come back after `back` of them.
-fn closed(
-    motion: &Motion<'_>,
-    passages: &Passages,
-    back: usize,
-    scale: f64,
-) -> Option<MotionOrbit> {
+fn closed(motion: &Motion<'_>, passages: &Passages, back: usize, scale: f64) -> Option<Orbit> {
     let all = &passages.events;
     let first = all.len().checked_sub(back + 1)?;
     // The longest quiet interval of the period.
@@ -366,7 +361,7 @@ fn rates(motion: &Motion<'_>, state: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// The cycle from its section: the first release of the lowest contact that releases, or the least first coordinate.
-fn reported(motion: &Motion<'_>, state: &[f64], period: f64) -> Option<MotionOrbit> {
+fn reported(motion: &Motion<'_>, state: &[f64], period: f64) -> Option<Orbit> {
     let mut cycle = orbit_at(motion, state, period, true).ok()?;
     let mut passages = Passages::new(state.len());
     let start = MotionStart { time: 0.0, state: state.to_vec() };
