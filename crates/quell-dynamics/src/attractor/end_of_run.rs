@@ -14,7 +14,7 @@ use super::unsettled::Unsettled;
 use crate::motion::{Immobile, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped};
 use crate::orbit::{
     BASE_STEPS, CycleSamples, NoCycle, NoOrbit, Orbit, OrbitVerdict, SettledMotion, base_response,
-    displaced, free_cycle, settled, settled_many, sliding_state,
+    displaced, free_cycle, near, orbit_at, settled, settled_many, sliding_state,
 };
 use crate::simulation::{Stalled, Start};
 
@@ -111,6 +111,34 @@ pub fn end_of_run(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRu
         return on_free_motion(&system.undithered(), row, start);
     }
     under_dither(system, row, start, settled(system, start))
+}
+
+/// The periodic motion on which the run of a dithered system from a state at t = 0 ends, by the same judge as [`end_of_run`].
+///
+/// # Errors
+/// [`NoEnd`], and [`NoOrbit::Unsettled`] in it of a motion that does not repeat itself.
+pub fn orbit_of_run(system: &System, start: &[f64]) -> Result<SettledMotion, NoEnd> {
+    if judged_mass(system).is_none() {
+        return settled(system, start).map_err(NoEnd::NoOrbit);
+    }
+    let EndOfRun { attractor, periods } = end_of_run(system, &[1.0], start)?;
+    let unsettled = |tried, is_steady| {
+        let last = attractor.states.clone();
+        NoEnd::NoOrbit(NoOrbit::Unsettled { periods: tried, last, is_steady })
+    };
+    let (orbit, multiple) = match attractor.kind {
+        MotionKind::Periodic { periods, .. } => (near(system, &attractor.state, periods), periods),
+        MotionKind::Rest => {
+            // Shooting is undefined at rest: every state at which the contact sticks is one.
+            let motion = Motion::new(system).map_err(NoEnd::Immobile)?;
+            let period = period(system).ok_or(NoEnd::NoPeriod)?;
+            (orbit_at(&motion, &attractor.state, period, false), 1)
+        }
+        MotionKind::QuasiPeriodic { tried } => return Err(unsettled(tried, true)),
+        MotionKind::NotPeriodic { tried } => return Err(unsettled(tried, false)),
+        MotionKind::Cycle { .. } => return Err(NoEnd::NoOrbit(NoOrbit::NoDither)),
+    };
+    Ok(SettledMotion { orbit: orbit.map_err(NoEnd::NoOrbit)?, multiple, periods })
 }
 
 /// The one mass of a system whose runs are judged by its section, without dither by its cycle map. Of a mass on a surface at rest that no

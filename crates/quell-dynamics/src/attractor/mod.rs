@@ -45,7 +45,8 @@ mod unsettled;
 pub use base_response::BaseResponse;
 pub use basin::{Basin, BasinLabel, BasinsOfAttraction, gather};
 pub use end_of_run::{
-    EndOfRun, NoEnd, end_of_run, ends_of_runs, judged_mass, measured_of_one_mass, starts_of_mass,
+    EndOfRun, NoEnd, end_of_run, ends_of_runs, judged_mass, measured_of_one_mass, orbit_of_run,
+    starts_of_mass,
 };
 pub use measure::{Attractor, AttractorKind, measure};
 pub use outcome::{RunOutcome, outcome_of_run};

@@ -84,7 +84,8 @@ impl SettledMotion {
     }
 }
 
-/// The periodic motion on which a run from a state at t = 0 ends: the one judge of it for every verb.
+/// The periodic motion on which a run from a state at t = 0 ends. Verbs ask [`orbit_of_run`](crate::attractor::orbit_of_run), which
+/// judges one mass by more than its returns.
 ///
 /// # Errors
 /// [`NoOrbit::Unsettled`] where no such motion is found.

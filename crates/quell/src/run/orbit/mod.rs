@@ -1,10 +1,10 @@
 //! `orbit`: the base response under dither, a periodic motion near a state, or the one on which a run ends, with its
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
+use quell_dynamics::attractor::orbit_of_run;
 use quell_dynamics::orbit::{
     BASE_STEPS, CycleSamples, CycleSearch, NamedStart, NoOrbit, Orbit, OrbitVerdict, SettledMotion,
-    TriedStart, base_response, limit_cycles, near, search_cycle, settled, sliding_verdict,
-    usual_starts,
+    TriedStart, base_response, limit_cycles, near, search_cycle, sliding_verdict, usual_starts,
 };
 use quell_dynamics::simulation::within;
 use quell_linear::growth::Verdict;
@@ -159,7 +159,7 @@ fn reached(
     let system = study.system();
     let start = protocol.state(study, system)?;
     let words = protocol.words(study);
-    match settled(system, &start) {
+    match orbit_of_run(system, &start) {
         Ok(SettledMotion { orbit, multiple, periods }) => {
             Ok((orbit, multiple, FoundBy::Run { start: words, periods, instead }))
         }
