@@ -267,6 +267,15 @@ fn a_gap_beyond_a_grazing_is_an_error_of_the_threshold() {
         assert_eq!((&local["was"], &local["becomes"]), (&"unstable".into(), &"stable".into()));
         let warning = found["warnings"][0].as_str().expect("a warning");
         assert!(warning.contains("no response was found"), "{warning}");
+        // `orbit` knows the base response from the end of the gap on, and none in it.
+        for (share, response) in
+            [(-0.01_f64, "base"), (0.5, "reached"), (1.01, "base"), (2.0, "base")]
+        {
+            let amplitude = share.mul_add(number("error"), number("value"));
+            let set = format!("dither.amplitude={amplitude}");
+            let (orbit, _) = quell(&["orbit", "studies/own-friction-law.toml", "--set", &set]);
+            assert_eq!(orbit["response"], response, "{share}: {orbit}");
+        }
     }
 }
 

@@ -262,6 +262,11 @@ pub(super) fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoOrbi
 /// times the 10⁻⁶ within which responses were seen to be lost; of a smaller value they are reported as lost.
 const NEXT_TO_A_CHANGE: f64 = 1e-4;
 
+/// Share of the dither, over that of a change, from which a response at 1 is sought where the branch ends at the change: where a stick begins
+/// with a static level above μ(0⁺) no response exists next to the grazing, and the branch goes on up to 2 % beyond it. This is twice that. With a
+/// smaller value a response just beyond such a gap is taken for none; a larger one only costs time where none exists.
+const BEYOND_A_GAP: f64 = 0.04;
+
 /// The base response: the orbit that continues steady sliding as the dither grows from zero, followed in the common factor of
 /// all amplitudes in at least `steps` steps.
 ///
@@ -271,30 +276,42 @@ pub fn base_response(system: &System, steps: u32) -> Result<Orbit, NoOrbit> {
     let motion = Motion::new(system).map_err(NoOrbit::Immobile)?;
     let period = period_of(&motion, 1)?;
     let sliding = sliding_state(system).map_err(NoOrbit::NoSliding)?;
-    let grown = |to: f64| grown(&motion, &sliding, (to, steps));
-    let why = match grown(1.0) {
+    let grown = |to: f64| followed(&motion, &sliding, (0.0, to), steps);
+    let (why, changes_at) = match grown(1.0) {
         Ok(Ok(state)) => return orbit_at(&motion, &state, period, false),
-        Ok(Err((why, changes_at))) if (changes_at - 1.0).abs() < NEXT_TO_A_CHANGE => why,
-        Ok(Err((why, _))) | Err(why) => return Err(why),
+        Ok(Err(lost)) => lost,
+        Err(why) => return Err(why),
     };
-    match grown(1.0 + NEXT_TO_A_CHANGE) {
-        Ok(Ok(state)) => near(system, &state, 1).map_err(|_| why),
-        _ => Err(why),
+    if (changes_at - 1.0).abs() < NEXT_TO_A_CHANGE {
+        return match grown(1.0 + NEXT_TO_A_CHANGE) {
+            Ok(Ok(state)) => near(system, &state, 1).map_err(|_| why),
+            _ => Err(why),
+        };
     }
+    let beyond = changes_at * (1.0 + BEYOND_A_GAP);
+    if changes_at < 1.0
+        && beyond > 1.0
+        && let Ok(Ok(farther)) = grown(beyond)
+        && let Ok(Ok(state)) = followed(&motion, &farther, (beyond, 1.0), steps)
+    {
+        return orbit_at(&motion, &state, period, false);
+    }
+    Err(why)
 }
 
-/// The state of the base response under a share of the dither, grown from none; or why it is lost on the way, and the share at which the
-/// branch changes last.
-fn grown(
+/// The state of the base response under a share of the dither, followed from a state under another one; or why it is lost on the way, and
+/// the share at which the branch changes last.
+fn followed(
     motion: &Motion<'_>,
-    sliding: &[f64],
-    (to, steps): (f64, u32),
+    first: &[f64],
+    (from, to): (f64, f64),
+    steps: u32,
 ) -> Result<Result<Vec<f64>, (NoOrbit, f64)>, NoOrbit> {
     let at = |factor: &[f64]| Ok(motion.system().with_amplitudes_scaled(factor[0]));
-    let scale = scale_of(motion, sliding);
-    let family = OrbitFamily { at: &at, periods: 1, size: sliding.len(), scale };
-    let options = Follow::window(0.0, to, steps).only_forwards();
-    let branch = follow(&family, sliding, 0.0, true, options)?;
+    let scale = scale_of(motion, first);
+    let family = OrbitFamily { at: &at, periods: 1, size: first.len(), scale };
+    let options = Follow::window(from, to, steps).only_forwards();
+    let branch = follow(&family, first, from, to > from, options)?;
     let turns = branch.special_points.iter().find(|point| point.is_turn());
     let why = match (turns, branch.end) {
         (Some(turn), _) => NoOrbit::Ends { share: turn.parameter },
