@@ -92,6 +92,9 @@ fn a_small_slow_motion_about_an_unstable_response_is_not_quiet() {
         let found = measure(&settings, &settled).expect("no stall").expect("an attractor");
         let outcome = outcome_of_run(&belt.system(), &[0.0, 0.0]).expect("an end");
         assert_eq!(outcome.is_quiet(), Some(found.quiet), "{amplitude}");
+        let effect = response_of(&belt, Start::REST, &Solver::default()).effect;
+        let expected = if found.quiet { Effect::Quenches } else { Effect::Reduces };
+        assert_eq!(effect, expected, "{amplitude}");
         found
     };
     let below = at(0.496_557);

@@ -9,7 +9,7 @@ use std::fmt;
 use super::measure::Undefined;
 use super::record_lines::RecordLines;
 
-/// A response with less than this fraction of the undithered vibration is quenched.
+/// A response that ends on no known motion is quenched with less than this fraction of the undithered vibration.
 pub const QUENCHED: f64 = 0.01;
 
 /// Residual vibration E below which the dissertation calls a vibration suppressed (5 % in figure 2.8), and a designed dither that repeats in
@@ -19,7 +19,7 @@ pub const SUPPRESSED: f64 = 0.05;
 /// The effect of a dither on the vibration below 1.9 ω₀, from one start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Effect {
-    /// It vibrates without dither; less than a hundredth of the vibration remains with it.
+    /// It vibrates without dither, and ends quiet with it; where it ends on no known motion, less than a hundredth of the vibration remains.
     Quenches,
     /// It vibrates without dither, and less with it.
     Reduces,
@@ -108,8 +108,8 @@ pub struct Vibrations {
     pub undithered: RecordLines,
     /// Whether the undithered run settles without vibration.
     pub quiet_without: bool,
-    /// Whether the dithered run is known to settle without slow vibration, so that a small one in its record does not grow.
-    pub quiet_with: bool,
+    /// Whether the motion on which the dithered run ends is quiet; `None` where it is not known.
+    pub quiet_with: Option<bool>,
 }
 
 impl Vibrations {
@@ -117,12 +117,13 @@ impl Vibrations {
     pub fn effect(&self) -> Effect {
         let Self { dithered, undithered, quiet_without, quiet_with } = *self;
         let ratio = dithered.whole() / undithered.whole();
-        let negligible = if quiet_without { dithered.is_negligible() } else { ratio < QUENCHED };
+        let is_small = if quiet_without { dithered.is_negligible() } else { ratio < QUENCHED };
         let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
-        if negligible {
+        // However small, a slow motion that stays is no quiet.
+        if is_small && quiet_with != Some(false) {
             // A vibration too small to be visible may still grow, unless the record is steady or decays, or the run is known to settle
             // without one.
-            let decided = dithered.is_steady() || dithered.decays() || quiet_with;
+            let decided = dithered.is_steady() || dithered.decays() || quiet_with.is_some();
             return if decided { nothing } else { Effect::Unknown(Uncertain::StillChanging) };
         }
         if !dithered.is_settled(undithered.whole()) && !dithered.is_steady() {

@@ -80,7 +80,7 @@ impl ResponseSummary {
             dithered: compared.dithered.record(),
             undithered: compared.undithered.record(),
             quiet_without: vibrates.is_err_and(Undefined::is_quiet),
-            quiet_with: ending.motion().is_some_and(|found| found.quiet),
+            quiet_with: ending.motion().map(|found| found.quiet),
         };
         effect_of(of.system.is_dithered(), vibrates, (&ending, band_end), &vibrations)
     }

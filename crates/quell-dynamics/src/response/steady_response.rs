@@ -190,7 +190,7 @@ impl<'a> UnditheredResponse<'a> {
             dithered: with,
             undithered: without,
             quiet_without: vibrates.is_err_and(Undefined::is_quiet),
-            quiet_with: dithered.ending.motion().is_some_and(|found| found.quiet),
+            quiet_with: dithered.ending.motion().map(|found| found.quiet),
         };
         let effect = effect_of(has_dither, vibrates, (&dithered.ending, band_end), &vibrations);
         let steady = SteadySliding::new(&self.still).ok();

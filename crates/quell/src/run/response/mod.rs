@@ -215,16 +215,8 @@ impl MeasuredResponse {
             }
             .sentence(effect),
         };
-        let is_quiet = response.dithered.ending.motion().is_none_or(|found| found.quiet);
-        let left = match response.effect {
-            Effect::Quenches if !is_quiet => {
-                " A slow vibration of that size remains: `thresholds`, `basins` and `bifurcation` classify this \
-                 response as vibrating."
-            }
-            _ => "",
-        };
         let levels = self.band_in_words(study);
-        format!("Started {from}, {what}.{left}{levels}{}", self.cost(study))
+        format!("Started {from}, {what}.{levels}{}", self.cost(study))
     }
 
     /// The cost of every dither in a sentence of its own.
