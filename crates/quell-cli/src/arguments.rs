@@ -273,7 +273,7 @@ pub(crate) fn answer(
     outputs: Outputs,
     plot: Plot,
 ) -> Result<Answer, Failure> {
-    let mut object = outcome.json();
+    let mut object = outcome.named_json();
     let drawn = plot.drawn(outcome)?;
     outputs.write(outcome, &mut object)?;
     drawn.write(&mut object)?;

@@ -297,3 +297,43 @@ fn a_support_at_rest_has_orbits_from_rest() {
     let why = found["errors"][0]["message"].as_str().unwrap_or_default();
     assert!(status == 1 && why.contains("does not move") && why.contains("--near"), "{found}");
 }
+
+/// An option that asks another question has an answer of another name, so that a reader of JSON knows its fields.
+#[test]
+fn answers_name_what_they_are() {
+    let place = place("doors-names");
+    let file = format!("{}/../../studies/stribeck-belt.toml", env!("CARGO_MANIFEST_DIR"));
+    let belt = file.as_str();
+    for (arguments, name) in [
+        (&["response", belt][..], "response"),
+        (&["response", belt, "--window", "10:20"], "window"),
+        (&["stability", belt], "stability"),
+        (&["stability", belt, "--exact", "--set", "dither.amplitude=0.1"], "exact-stability"),
+        (&["friction", belt], "friction"),
+        (&["friction", belt, "--describing", "0.1"], "describing-function"),
+        (&["thresholds", belt], "thresholds"),
+        (
+            &["thresholds", belt, "--along", "belt.belt_velocity", "--between", "0.05:0.06"],
+            "threshold-curves",
+        ),
+        (
+            &[
+                "stability",
+                belt,
+                "--parameter",
+                "belt.belt_velocity",
+                "--from",
+                "0.1",
+                "--to",
+                "0.3",
+            ],
+            "tracked-stability",
+        ),
+        (&["resonances", belt], "reach"),
+    ] {
+        let object = place.good(arguments);
+        assert_eq!(object["answer"], name, "{arguments:?}");
+        let first: Vec<_> = object.as_object().expect("an object").keys().take(2).collect();
+        assert_eq!(first, ["ok", "answer"]);
+    }
+}

@@ -23,5 +23,5 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let verbs = verbs(&study);
     let done = verbs.cite();
     let text = || if arguments.bibtex { verbs.sources().bibtex() } else { done.text() };
-    Ok(Answer::new(arguments.study.json, &done.json(), text))
+    Ok(Answer::new(arguments.study.json, &done.named_json(), text))
 }

@@ -102,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = map(plan, store.as_ref(), running)?;
-    let mut object = done.json();
+    let mut object = done.named_json();
     match keep {
         Keep::Table(output) => {
             let format = TableFormat::of_extension(&output.extension());

@@ -17,6 +17,7 @@ use crate::run::design::StudyWithDesign;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for ActuatorFound {
+    const NAME: &'static str = "actuator";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

@@ -14,6 +14,7 @@ use crate::run::system::rate_of;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for FoundAttractor {
+    const NAME: &'static str = "attractor";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

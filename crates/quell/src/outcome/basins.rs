@@ -17,6 +17,7 @@ use crate::run::system::in_units;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for Basins {
+    const NAME: &'static str = "basins";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

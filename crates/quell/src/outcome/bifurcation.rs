@@ -15,6 +15,7 @@ use crate::run::bifurcation::{Bifurcation, Branch, SweepPoint, words};
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for Bifurcation {
+    const NAME: &'static str = "bifurcation";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

@@ -18,6 +18,8 @@ use crate::study::{
 pub struct Valid;
 
 impl Presented<DiscSetup> for Valid {
+    const NAME: &'static str = "check";
+
     fn json(&self, study: &DiscStudy) -> Json {
         disc::check::json(study)
     }
@@ -32,6 +34,8 @@ impl Presented<DiscSetup> for Valid {
 }
 
 impl Presented<SystemSetup> for Valid {
+    const NAME: &'static str = "check";
+
     fn json(&self, study: &SystemStudy) -> Json {
         check::json(study)
     }

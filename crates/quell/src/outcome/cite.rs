@@ -9,6 +9,8 @@ use crate::cite::Sources;
 use crate::study::StudyOf;
 
 impl<K> Presented<K> for Sources {
+    const NAME: &'static str = "sources";
+
     fn json(&self, _: &StudyOf<K>) -> Json {
         self.json()
     }

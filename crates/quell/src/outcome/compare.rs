@@ -39,6 +39,10 @@ impl Outcome for ComparedStudy {
         self.study.inputs().with_files(files.map(|record| record.file.as_path()))
     }
 
+    fn name(&self) -> &'static str {
+        "comparison"
+    }
+
     fn json(&self) -> Json {
         let mut fields = Fields::new(None);
         fields.plain("ok", true).plain("sentence", sentence(&self.done));

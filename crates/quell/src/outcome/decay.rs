@@ -22,6 +22,10 @@ impl Outcome for FreeDecay {
         self.record.inputs()
     }
 
+    fn name(&self) -> &'static str {
+        "free-decay"
+    }
+
     fn json(&self) -> Json {
         json(self)
     }

@@ -16,6 +16,8 @@ use crate::run::system::in_units;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for DescribedContacts {
+    const NAME: &'static str = "describing-function";
+
     fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }

@@ -14,6 +14,7 @@ use crate::run::design::{DesignedDither, LeastDitherFound};
 use crate::study::{DiscSetup, DiscStudy, SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for LeastDitherFound {
+    const NAME: &'static str = "design";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
@@ -39,6 +40,7 @@ impl Presented<SystemSetup> for LeastDitherFound {
 }
 
 impl Presented<DiscSetup> for LeastDitherFound {
+    const NAME: &'static str = "design";
     const TITLED: bool = true;
 
     fn json(&self, study: &DiscStudy) -> Json {

@@ -12,6 +12,7 @@ use crate::run::disc::motion::DiscSimulation;
 use crate::study::{DiscSetup, DiscStudy};
 
 impl Presented<DiscSetup> for DiscSimulation {
+    const NAME: &'static str = "simulation";
     const TITLED: bool = true;
 
     fn json(&self, study: &DiscStudy) -> Json {

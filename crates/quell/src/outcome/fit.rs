@@ -29,6 +29,10 @@ impl Outcome for FrictionFit {
         self.data.inputs()
     }
 
+    fn name(&self) -> &'static str {
+        "friction-fit"
+    }
+
     fn json(&self) -> Json {
         json(self)
     }

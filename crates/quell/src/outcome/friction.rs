@@ -22,6 +22,8 @@ use crate::study::{SystemSetup, SystemStudy};
 const FEW: usize = 100;
 
 impl Presented<SystemSetup> for ContactCurves {
+    const NAME: &'static str = "friction";
+
     fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }

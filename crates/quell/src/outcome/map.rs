@@ -20,6 +20,10 @@ impl Outcome for FinishedMap {
         self.plan().grid().study().inputs()
     }
 
+    fn name(&self) -> &'static str {
+        "map"
+    }
+
     fn json(&self) -> Json {
         FinishedMap::json(self)
     }

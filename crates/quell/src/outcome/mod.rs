@@ -52,9 +52,20 @@ pub trait Outcome: Send + Sync {
     /// The files that the study was read from; no output may overwrite them.
     fn inputs(&self) -> Inputs;
 
-    /// Every field, with units, reasons for null fields, and warnings: the object that the command line prints with
-    /// `--json`.
+    /// What the answer is: a verb has one of several names where an option asks another question.
+    fn name(&self) -> &'static str;
+
+    /// Every field, with units, reasons for null fields, and warnings.
     fn json(&self) -> Json;
+
+    /// The same after its name, in `answer`: the object that the command line prints with `--json`.
+    fn named_json(&self) -> Json {
+        let mut json = self.json();
+        if let Json::Object(fields) = &mut json {
+            fields.shift_insert(1.min(fields.len()), "answer".to_owned(), self.name().into());
+        }
+        json
+    }
 
     /// The fields without the large arrays of [`Outcome::datasets`]; only a map has such arrays.
     fn facts(&self) -> Json {
@@ -115,6 +126,9 @@ pub trait Outcome: Send + Sync {
 ///
 /// Most results have methods `json` and `sentence` of their own, which these call.
 pub trait Presented<K>: Send + Sync {
+    /// [`Outcome::name`].
+    const NAME: &'static str;
+
     /// Whether the text begins with the title of the study.
     const TITLED: bool = false;
 
@@ -174,6 +188,10 @@ impl<K: StudyKind, D> Answered<K, D> {
 impl<K: StudyKind + Send + Sync, D: Presented<K>> Outcome for Answered<K, D> {
     fn inputs(&self) -> Inputs {
         self.study.inputs()
+    }
+
+    fn name(&self) -> &'static str {
+        D::NAME
     }
 
     fn json(&self) -> Json {

@@ -15,6 +15,7 @@ use crate::run::disc::modes::Modes;
 use crate::study::{DiscSetup, DiscStudy};
 
 impl Presented<DiscSetup> for Modes {
+    const NAME: &'static str = "modes";
     const TITLED: bool = true;
 
     fn json(&self, study: &DiscStudy) -> Json {

@@ -25,6 +25,7 @@ fn table(found: &NoiseResponse, table: &mut TextTable, band: &str) {
 }
 
 impl Presented<SystemSetup> for NoiseResponse {
+    const NAME: &'static str = "noise-response";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

@@ -19,6 +19,7 @@ use crate::study::{SystemSetup, SystemStudy};
 const MOST_LISTED: usize = 12;
 
 impl Presented<SystemSetup> for PeriodicResponse {
+    const NAME: &'static str = "orbit";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

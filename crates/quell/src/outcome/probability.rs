@@ -21,6 +21,7 @@ where
     StudyOf<K>: SampledKind,
     for<'a> Study: From<&'a StudyOf<K>>,
 {
+    const NAME: &'static str = "probability";
     const TITLED: bool = true;
 
     fn json(&self, study: &StudyOf<K>) -> Json {

@@ -14,6 +14,7 @@ use crate::run::system::in_units;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for Ramp {
+    const NAME: &'static str = "ramp";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

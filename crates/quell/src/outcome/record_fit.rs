@@ -24,6 +24,10 @@ impl Outcome for RecordFit {
         self.study.inputs().with_files([self.record.path()])
     }
 
+    fn name(&self) -> &'static str {
+        "record-fit"
+    }
+
     fn json(&self) -> Json {
         let unit = self.record.unit.unwrap_or("1");
         let mut fields = Fields::new(None);

@@ -17,6 +17,7 @@ use crate::run::disc::resonances::{
 use crate::study::{DiscSetup, DiscStudy};
 
 impl Presented<DiscSetup> for Resonances {
+    const NAME: &'static str = "resonances";
     const TITLED: bool = true;
 
     fn json(&self, study: &DiscStudy) -> Json {

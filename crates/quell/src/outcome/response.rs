@@ -22,6 +22,7 @@ use crate::study::{SystemSetup, SystemStudy};
 const PEAKS: usize = 4;
 
 impl Presented<SystemSetup> for MeasuredResponse {
+    const NAME: &'static str = "response";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

@@ -21,6 +21,7 @@ use crate::study::{SystemSetup, SystemStudy};
 const MOST_NUMBERS: usize = 12;
 
 impl Presented<SystemSetup> for Simulation {
+    const NAME: &'static str = "simulation";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

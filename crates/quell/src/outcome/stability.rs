@@ -22,6 +22,7 @@ use crate::run::stability::{
 use crate::study::{DiscSetup, DiscStudy, SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for SlidingStability {
+    const NAME: &'static str = "stability";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
@@ -42,6 +43,8 @@ impl Presented<SystemSetup> for SlidingStability {
 }
 
 impl Presented<DiscSetup> for DiscStability {
+    const NAME: &'static str = "stability";
+
     fn json(&self, study: &DiscStudy) -> Json {
         in_units_of_study(study, self.json(study))
     }

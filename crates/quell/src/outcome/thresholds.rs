@@ -17,6 +17,7 @@ use crate::run::thresholds::{TRIED, Thresholds, events_in_words, side};
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for Thresholds {
+    const NAME: &'static str = "thresholds";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
@@ -98,6 +99,7 @@ impl Presented<SystemSetup> for Thresholds {
 }
 
 impl Presented<SystemSetup> for Curves {
+    const NAME: &'static str = "threshold-curves";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

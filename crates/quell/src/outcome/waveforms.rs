@@ -15,6 +15,7 @@ use crate::run::waveforms::{COLUMNS, ComparedWaveform, CostColumn, RankedBy, Wav
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for WaveformComparison {
+    const NAME: &'static str = "waveforms";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

@@ -13,6 +13,7 @@ use crate::run::window::WindowedResponse;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for WindowedResponse {
+    const NAME: &'static str = "window";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

@@ -10,6 +10,7 @@ use crate::run::system::exact::ExactStability;
 use crate::study::{SystemSetup, SystemStudy, UnitSystem};
 
 impl Presented<SystemSetup> for ExactStability {
+    const NAME: &'static str = "exact-stability";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

@@ -8,6 +8,7 @@ use crate::run::system::measured::MeasuredStability;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for MeasuredStability {
+    const NAME: &'static str = "stability-of-measured-response";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

@@ -12,6 +12,7 @@ use crate::run::system::modes::SystemModes;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for SystemModes {
+    const NAME: &'static str = "modes";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

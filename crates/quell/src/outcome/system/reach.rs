@@ -16,6 +16,7 @@ use crate::run::system::reach::{Reaches, UNBOUNDED_RESONANCE};
 use crate::study::{SystemSetup, SystemStudy, UnitSystem};
 
 impl Presented<SystemSetup> for Reaches {
+    const NAME: &'static str = "reach";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

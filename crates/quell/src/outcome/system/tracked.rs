@@ -17,6 +17,7 @@ use crate::words::plural;
 use quell_linear::growth::Verdict;
 
 impl Presented<SystemSetup> for TrackedStability {
+    const NAME: &'static str = "tracked-stability";
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
