@@ -2,9 +2,10 @@
 //! of the base response, and the amplitudes at which either of them changes.
 
 use quell_dynamics::attractor::{
-    Attractor, AttractorSettings, Patience, SettleOutcome, Settled, measure, settle,
+    Attractor, AttractorSettings, Patience, RunSwitches, VariedRun, measure, settle,
 };
-use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::{OrbitVerdict, branch_thresholds};
+use quell_model::System;
 
 use super::axis::values;
 use super::failure::failed;
@@ -12,12 +13,8 @@ use quell::complaint::Failure;
 use quell::run;
 use quell::study::BeltStudy;
 
-/// Largest number of periods of a run. With fewer, a run that is still settling counts as
-/// vibrating and has no settled section; with more, a run at a threshold only takes longer.
-const MOST_PERIODS: u64 = 40_000;
-
-/// Relative tolerance of a threshold.
-const CLOSENESS: f64 = 1e-5;
+/// Steps in which the base response is followed over the amplitudes.
+const STEPS: u32 = 40;
 
 /// One column of a figure: one amplitude.
 #[derive(Debug)]
@@ -41,8 +38,10 @@ impl AmplitudeColumn {
         let study = study.with("dither.amplitude", amplitude)?;
         let belt = study.belt().clone();
         let settings = AttractorSettings::new(&belt).map_err(|why| failed(name, &why))?;
-        let local = local(name, &settings)?;
-        let settled = run_from_start(name, &study, &settings)?;
+        let base = settings.base.as_ref().map_err(|why| failed(name, why))?;
+        let local = base.verdict;
+        let settled = settle(&settings, run::start(&study)?, Patience::SWEEP);
+        let settled = settled.map_err(|why| failed(name, &why))?;
         let attractor = measure(&settings, &settled).map_err(|why| failed(name, &why))?;
         let quiet = attractor.as_ref().is_some_and(|attractor| attractor.quiet);
         Ok(Self { amplitude, study, local, quiet, attractor, period: settings.section.period })
@@ -54,23 +53,7 @@ impl AmplitudeColumn {
     }
 }
 
-/// Stability of the base response.
-fn local(name: &str, settings: &AttractorSettings<'_>) -> Result<OrbitVerdict, Failure> {
-    settings.base.as_ref().map(|base| base.verdict).map_err(|why| failed(name, why))
-}
-
-/// SettleOutcome of the run from the study's initial state.
-fn run_from_start(
-    name: &str,
-    study: &BeltStudy,
-    settings: &AttractorSettings<'_>,
-) -> Result<Settled, Failure> {
-    let start = run::start(study)?;
-    let patience = Patience { periods: MOST_PERIODS, ..Patience::SWEEP };
-    settle(settings, start, patience).map_err(|why| failed(name, &why))
-}
-
-/// An amplitude between neighbouring columns at which a property changes.
+/// An amplitude at which a property changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AmplitudeThreshold {
     /// The amplitude.
@@ -97,42 +80,34 @@ impl AmplitudeColumns {
             .into_iter()
             .map(|amplitude| AmplitudeColumn::new(name, &study, amplitude))
             .collect::<Result<_, Failure>>()?;
-        let of = |holds: fn(&AmplitudeColumn) -> bool| {
-            cases.iter().map(|case| (case.amplitude, holds(case))).collect::<Vec<_>>()
+        let at = |values: &[f64]| {
+            let study = study.with("dither.amplitude", values[0]).map_err(|why| why.to_string())?;
+            Ok(study.belt().system())
         };
-        let stable = of(|case| case.local == OrbitVerdict::Stable);
-        let local = thresholds(&study, &stable, |_, settings| {
-            Ok(local(name, settings)? == OrbitVerdict::Stable)
-        })?;
-        let quiet = of(|case| case.quiet);
-        let from_rest = thresholds(&study, &quiet, |study, settings| {
-            Ok(run_from_start(name, study, settings)?.outcome == SettleOutcome::Base)
-        })?;
+        let ends = cases.first().zip(cases.last());
+        let window = ends.map_or((0.0, 0.0), |(first, last)| (first.amplitude, last.amplitude));
+        let found =
+            branch_thresholds(&at, window, STEPS, None).map_err(|why| failed(name, &why))?;
+        let local = found.thresholds.iter().filter_map(|threshold| {
+            let [was, is] = [threshold.was, threshold.becomes]
+                .map(|verdict| verdict == Some(OrbitVerdict::Stable));
+            (was != is)
+                .then_some(AmplitudeThreshold { amplitude: threshold.value, holds_above: is })
+        });
+        let local = local.collect();
+        let start = run::start(&study)?;
+        let state = move |_: f64, _: &System| Ok(vec![start.displacement, start.velocity]);
+        let run = VariedRun { start: &state, ramp: 0.0, at: &at, most_steps: u64::MAX };
+        let outcomes: Vec<_> =
+            cases.iter().map(|case| (case.amplitude, run.outcome(case.amplitude))).collect();
+        let switches = RunSwitches::of(&outcomes, |pairs| {
+            pairs.iter().map(|[low, high]| run.change(*low, *high)).collect()
+        });
+        let from_rest = switches.changes.iter().map(|change| AmplitudeThreshold {
+            amplitude: change.value,
+            holds_above: change.becomes.is_quiet() == Some(true),
+        });
+        let from_rest = from_rest.collect();
         Ok(Self { study, cases, local, from_rest })
     }
-}
-
-/// Bisects each change between neighbouring columns; two changes between the same columns are missed.
-fn thresholds(
-    study: &BeltStudy,
-    known: &[(f64, bool)],
-    holds: impl Fn(&BeltStudy, &AttractorSettings<'_>) -> Result<bool, Failure>,
-) -> Result<Vec<AmplitudeThreshold>, Failure> {
-    let mut found = Vec::new();
-    for pair in known.windows(2) {
-        let [(mut low, before), (mut high, after)] = [pair[0], pair[1]];
-        if before == after {
-            continue;
-        }
-        while high - low > CLOSENESS * high {
-            let middle = 0.5 * (low + high);
-            let study = study.with("dither.amplitude", middle)?;
-            let belt = study.belt().clone();
-            let settings =
-                AttractorSettings::new(&belt).map_err(|why| failed("reproduce", &why))?;
-            if holds(&study, &settings)? == before { low = middle } else { high = middle }
-        }
-        found.push(AmplitudeThreshold { amplitude: 0.5 * (low + high), holds_above: after });
-    }
-    Ok(found)
 }
