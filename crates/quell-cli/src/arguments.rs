@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use quell::document::Node;
 use quell::input::Inputs;
-use quell::outcome::Outcome;
+use quell::outcome::{Outcome, named};
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
@@ -273,7 +273,7 @@ pub(crate) fn answer(
     outputs: Outputs,
     plot: Plot,
 ) -> Result<Answer, Failure> {
-    let mut object = outcome.named_json();
+    let mut object = named(outcome, outcome.json());
     let drawn = plot.drawn(outcome)?;
     outputs.write(outcome, &mut object)?;
     drawn.write(&mut object)?;

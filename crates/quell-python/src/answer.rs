@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use quell::dataset::Dataset;
-use quell::outcome::{Outcome, friction_export};
+use quell::outcome::{self, Outcome, friction_export};
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
@@ -46,7 +46,8 @@ fn tables(outcome: &dyn Outcome) -> Vec<(&'static str, Dataset)> {
 impl NativeAnswer {
     /// The facts of the answer, as a dict.
     fn facts(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        convert::to_python(py, &self.inner.facts())
+        let facts = outcome::named(self.inner.as_ref(), self.inner.facts());
+        convert::to_python(py, &facts)
     }
 
     /// (name, (provenance, axes, arrays)) of every dataset.

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use quell::Failure;
+use quell::outcome::named;
 use quell::verbs::verbs;
 
 use crate::answer::Answer;
@@ -23,5 +24,5 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let verbs = verbs(&study);
     let done = verbs.cite();
     let text = || if arguments.bibtex { verbs.sources().bibtex() } else { done.text() };
-    Ok(Answer::new(arguments.study.json, &done.named_json(), text))
+    Ok(Answer::new(arguments.study.json, &named(done.as_ref(), done.json()), text))
 }

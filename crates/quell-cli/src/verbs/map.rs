@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use quell::input::Inputs;
 use quell::needs::Needs;
-use quell::outcome::Outcome;
+use quell::outcome::{Outcome, named};
 use quell::output::Output;
 use quell::picture;
 use quell::run::map::run as map;
@@ -102,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = map(plan, store.as_ref(), running)?;
-    let mut object = done.named_json();
+    let mut object = named(&done, done.json());
     match keep {
         Keep::Table(output) => {
             let format = TableFormat::of_extension(&output.extension());

@@ -70,7 +70,7 @@ struct AttractorGroup {
 /// # Errors
 /// [`Stalled`] while an attractor is measured.
 pub fn gather(
-    settings: &AttractorSettings<'_>,
+    settings: &AttractorSettings,
     settled: &[Result<Settled, Stalled>],
 ) -> Result<BasinsOfAttraction, Stalled> {
     let mut groups: Vec<AttractorGroup> = Vec::new();

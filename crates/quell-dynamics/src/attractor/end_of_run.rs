@@ -66,7 +66,7 @@ impl NoEnd {
     }
 
     /// A run of one mass had not settled; where the base response, to which it may converge, was not found, for that reason.
-    pub(super) fn unsettled(settings: &AttractorSettings<'_>, settled: &Settled) -> Self {
+    pub(super) fn unsettled(settings: &AttractorSettings, settled: &Settled) -> Self {
         match &settings.base {
             Err(why) if !why.is_absence() => Self::NoOrbit(why.clone()),
             _ => Self::Unsettled(settled.why().unwrap_or(Unsettled::Moving)),
@@ -143,7 +143,7 @@ pub fn orbit_of_run(system: &System, start: &[f64]) -> Result<SettledMotion, NoE
 
 /// The one mass of a system whose runs are judged by its section, without dither by its cycle map. Of a mass on a surface at rest that no
 /// dither moves every state in stick is an end of its own: its runs are followed.
-pub fn judged_mass(system: &System) -> Option<OneMass> {
+pub(super) fn judged_mass(system: &System) -> Option<OneMass> {
     let judges = |mass: &OneMass| system.is_dithered() || mass.belt().belt_velocity() != 0.0;
     system.one_mass().filter(judges)
 }
@@ -160,7 +160,7 @@ pub(super) fn start_of_mass(mass: &OneMass, state: &[f64]) -> Start {
 }
 
 /// [`end_of_run`] of several starts; those under dither go on side by side.
-pub fn ends_of_runs(
+pub(super) fn ends_of_runs(
     system: &System,
     row: &[f64],
     starts: &[Vec<f64>],
@@ -203,7 +203,7 @@ fn ends_of_one_mass(
 ///
 /// # Errors
 /// [`NoEnd`].
-pub fn measured_of_one_mass(
+pub(super) fn measured_of_one_mass(
     (system, mass): (&System, &OneMass),
     row: &[f64],
     found: &Attractor,

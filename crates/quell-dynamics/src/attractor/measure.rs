@@ -143,7 +143,7 @@ pub(super) struct Classified {
 
 impl Classified {
     /// Whether it is quiescent, as [`Attractor::quiet`].
-    pub(super) fn is_quiet(&self, settings: &AttractorSettings<'_>) -> bool {
+    pub(super) fn is_quiet(&self, settings: &AttractorSettings) -> bool {
         match self.kind {
             AttractorKind::Periodic { periods, .. } => settings.is_quiet(periods),
             AttractorKind::Rest => true,
@@ -167,7 +167,7 @@ impl Classified {
 /// # Errors
 /// [`Stalled`].
 pub fn measure(
-    settings: &AttractorSettings<'_>,
+    settings: &AttractorSettings,
     settled: &Settled,
 ) -> Result<Option<Attractor>, Stalled> {
     let Some(found) = classified(settings, settled)? else { return Ok(None) };
@@ -180,7 +180,7 @@ pub fn measure(
 /// The motion on which a run that has settled ends; `None` for one that has not. One that still moved when its periods were over cannot
 /// end on an unstable base response: it is on another motion, which is classified.
 pub(super) fn classified(
-    settings: &AttractorSettings<'_>,
+    settings: &AttractorSettings,
     settled: &Settled,
 ) -> Result<Option<Classified>, Stalled> {
     let found = |kind, state, periods| Classified { kind, base: false, state, periods };
@@ -217,7 +217,7 @@ enum RecordFinding {
 }
 
 /// Records from a state on an attractor, until one shows an orbit or a steady rotation number.
-fn records(settings: &AttractorSettings<'_>, state: Start) -> Result<RecordFinding, Stalled> {
+fn records(settings: &AttractorSettings, state: Start) -> Result<RecordFinding, Stalled> {
     let mut from = state;
     let mut number = 1;
     loop {
@@ -238,7 +238,7 @@ fn records(settings: &AttractorSettings<'_>, state: Start) -> Result<RecordFindi
 
 /// The motion through a state on it, with dither. A run that has not `settled` may still be converging to what looks like a curve.
 fn elsewhere(
-    settings: &AttractorSettings<'_>,
+    settings: &AttractorSettings,
     state: Start,
     settled: bool,
 ) -> Result<Classified, Stalled> {
@@ -259,23 +259,19 @@ fn elsewhere(
 
 /// A record, and the state after it.
 fn record<'a>(
-    settings: &AttractorSettings<'a>,
+    settings: &AttractorSettings,
     start: Start,
 ) -> Result<(BlockObserver<'a>, Start), Stalled> {
     let period = settings.section.period;
     let periods = RECORD.max(BLOCKS * block(settings));
     let mut observer = BlockObserver::with_samples(period, periods, samples_per_period(period));
     let until = periods as f64 * period;
-    let end = simulate(settings.belt, start, until, DEFAULT_TOLERANCE, &mut observer)?;
+    let end = simulate(&settings.belt, start, until, DEFAULT_TOLERANCE, &mut observer)?;
     Ok((observer, Start { time: 0.0, ..end.restart() }))
 }
 
 /// The closed orbit to which the last states of a section return.
-fn orbit(
-    settings: &AttractorSettings<'_>,
-    section: &[(f64, f64)],
-    end: Start,
-) -> Option<(u32, Orbit)> {
+fn orbit(settings: &AttractorSettings, section: &[(f64, f64)], end: Start) -> Option<(u32, Orbit)> {
     // A cycle without dither has its own period; its section need not return.
     if settings.is_autonomous() {
         return None;
@@ -304,7 +300,7 @@ fn orbit(
 
 /// The orbit with its shortest period, if the period that was found is a multiple of it. An unstable orbit near one of its states is
 /// another one: that about which a small slow motion turns.
-fn shortest(settings: &AttractorSettings<'_>, periods: u32, orbit: Orbit) -> (u32, Orbit) {
+fn shortest(settings: &AttractorSettings, periods: u32, orbit: Orbit) -> (u32, Orbit) {
     let same = |part: &Orbit| {
         let off = gap(state(part), state(&orbit));
         off <= ONE_STATE * settings.belt.normal_load() && part.verdict() != OrbitVerdict::Unstable
@@ -326,7 +322,7 @@ fn gap(a: (f64, f64), b: (f64, f64)) -> f64 {
 }
 
 /// A motion as observed by a run on it.
-fn observed(settings: &AttractorSettings<'_>, found: &Classified) -> Result<Attractor, Stalled> {
+fn observed(settings: &AttractorSettings, found: &Classified) -> Result<Attractor, Stalled> {
     let &Classified { kind, base, state, periods } = found;
     let period = settings.section.period;
     let length = periods as f64 * period;
@@ -337,7 +333,7 @@ fn observed(settings: &AttractorSettings<'_>, found: &Classified) -> Result<Attr
         BlockObserver::with_samples(period, periods, samples),
         DisplacementExtremes { lowest: f64::INFINITY, highest: f64::NEG_INFINITY },
     );
-    simulate(settings.belt, state, length, DEFAULT_TOLERANCE, &mut observers)?;
+    simulate(&settings.belt, state, length, DEFAULT_TOLERANCE, &mut observers)?;
     let (observer, extremes) = observers;
     let stick_fraction = observer.stuck / length;
     // Held by friction on a belt that does not move: the dither does not show in the motion.

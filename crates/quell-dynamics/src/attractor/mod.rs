@@ -21,7 +21,7 @@
 //! | `block_observer` | observation of a block of periods: section, sticks, contraction of areas |
 //! | `settle`, `unsettled` | runs side by side, until each has settled, or why one has not |
 //! | `measure` | classification of the attractor of a settled run |
-//! | `basin` | which starts lead to the same attractor |
+//! | `basin`, `starts` | which starts lead to the same attractor, of one mass and of any system |
 //! | `end_of_run` | the motion on which a run of any system ends |
 //! | `outcome` | whether it is quiet, without a record of it |
 //! | `switches` | values of a parameter at which that changes |
@@ -38,22 +38,21 @@ mod rotation;
 mod section;
 mod settings;
 mod settle;
+mod starts;
 mod switches;
 mod system_attractor;
 mod unsettled;
 
 pub use base_response::BaseResponse;
 pub use basin::{Basin, BasinLabel, BasinsOfAttraction, gather};
-pub use end_of_run::{
-    EndOfRun, NoEnd, end_of_run, ends_of_runs, judged_mass, measured_of_one_mass, orbit_of_run,
-    starts_of_mass,
-};
+pub use end_of_run::{EndOfRun, NoEnd, end_of_run, orbit_of_run, starts_of_mass};
 pub use measure::{Attractor, AttractorKind, measure};
 pub use outcome::{RunOutcome, outcome_of_run};
 pub use rotation::{Ratio, Rotation};
 pub use section::StroboscopicSection;
 pub use settings::AttractorSettings;
 pub use settle::{Patience, SettleOutcome, Settled, settle, settle_many};
+pub use starts::{GroupedStarts, JudgedStarts, StartJudge};
 pub use switches::{
     RunSwitch, RunSwitches, SWITCH_CLOSENESS, StartOfRun, TriedValue, VariedRun, values_tried,
 };

@@ -9,9 +9,9 @@ use crate::orbit::NoOrbit;
 
 /// A belt, its stroboscopic section, and the base response under its dither, where it was found.
 #[derive(Clone, Debug)]
-pub struct AttractorSettings<'a> {
+pub struct AttractorSettings {
     /// The belt.
-    pub belt: &'a Belt,
+    pub belt: Belt,
     /// The belt as a system, whose state is (x, x′).
     pub(super) system: System,
     /// When states are compared.
@@ -20,16 +20,16 @@ pub struct AttractorSettings<'a> {
     pub base: Result<BaseResponse, NoOrbit>,
 }
 
-impl<'a> AttractorSettings<'a> {
+impl AttractorSettings {
     /// The settings of a belt.
     ///
     /// # Errors
     /// [`NoOrbit::NoImage`] of dithers without a common period.
-    pub fn new(belt: &'a Belt) -> Result<Self, NoOrbit> {
+    pub fn new(belt: &Belt) -> Result<Self, NoOrbit> {
         let system = belt.system();
         let section = StroboscopicSection::of(&system)?;
         let base = BaseResponse::of(&system, belt, section);
-        Ok(Self { belt, system, section, base })
+        Ok(Self { belt: belt.clone(), system, section, base })
     }
 
     /// Whether a response that repeats after a number of periods is quiet, without slow motion of its own.

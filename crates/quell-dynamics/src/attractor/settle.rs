@@ -178,7 +178,7 @@ impl BlockSummary {
 
 /// Number of periods of the section in a block.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-pub(super) fn block(settings: &AttractorSettings<'_>) -> usize {
+pub(super) fn block(settings: &AttractorSettings) -> usize {
     ((CYCLES_PER_BLOCK * std::f64::consts::TAU / settings.section.period).ceil() as usize)
         .max(FEWEST)
 }
@@ -205,7 +205,7 @@ struct RunHistory {
 }
 
 /// Most periods of a run: the requested number, but no longer than `LONGEST` where the section is slow.
-fn most_periods(settings: &AttractorSettings<'_>, patience: Patience) -> u64 {
+fn most_periods(settings: &AttractorSettings, patience: Patience) -> u64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let longest = (LONGEST / settings.section.period).ceil() as u64;
     patience.periods.min(longest.max(FEWEST as u64))
@@ -216,7 +216,7 @@ fn most_periods(settings: &AttractorSettings<'_>, patience: Patience) -> u64 {
 /// # Errors
 /// [`Stalled`].
 pub fn settle(
-    settings: &AttractorSettings<'_>,
+    settings: &AttractorSettings,
     start: Start,
     patience: Patience,
 ) -> Result<Settled, Stalled> {
@@ -227,7 +227,7 @@ pub fn settle(
 /// Integrates from every start until its run has settled, side by side. Every run starts at τ = 0, which fixes the phase of the
 /// dither.
 pub fn settle_many(
-    settings: &AttractorSettings<'_>,
+    settings: &AttractorSettings,
     starts: &[Start],
     patience: Patience,
 ) -> Vec<Result<Settled, Stalled>> {
@@ -249,7 +249,7 @@ pub fn settle_many(
             .map(|history| {
                 let observer = BlockObserver::new(period, block);
                 if history.observes_area {
-                    observer.with_contraction(settings.belt)
+                    observer.with_contraction(&settings.belt)
                 } else {
                     observer
                 }
@@ -259,7 +259,7 @@ pub fn settle_many(
             .iter()
             .zip(&mut observers)
             .map(|(history, observer)| SimulationRun {
-                belt: settings.belt,
+                belt: &settings.belt,
                 start: history.state,
                 until: length,
                 observer,
@@ -281,12 +281,12 @@ pub fn settle_many(
 }
 
 /// The limit sets of undithered runs, by the cycle map.
-fn undithered(settings: &AttractorSettings<'_>, starts: &[Start]) -> Vec<Result<Settled, Stalled>> {
+fn undithered(settings: &AttractorSettings, starts: &[Start]) -> Vec<Result<Settled, Stalled>> {
     let stall = |why: CycleMapError| match why {
         CycleMapError::Stalled(stalled) => stalled,
         CycleMapError::NoLimit => Stalled::NEVER_STARTED,
     };
-    let known = cycles(settings.belt).and_then(|cycles| {
+    let known = cycles(&settings.belt).and_then(|cycles| {
         let starts = cycles.iter().map(|cycle| Start::of_state(&cycle.state));
         let summaries = starts.map(|start| one_block(settings, start));
         let summaries = summaries.collect::<Result<Vec<_>, _>>().map_err(CycleMapError::Stalled)?;
@@ -302,7 +302,7 @@ fn undithered(settings: &AttractorSettings<'_>, starts: &[Start]) -> Vec<Result<
         .iter()
         .map(|start| {
             let start = nudged(settings, *start);
-            let (outcome, state, index) = match cycle_reached(settings.belt, &cycles, start) {
+            let (outcome, state, index) = match cycle_reached(&settings.belt, &cycles, start) {
                 Ok(None) => (SettleOutcome::Base, sliding, None),
                 Ok(Some(cycle)) if cycle.verdict() == OrbitVerdict::Unstable => {
                     (SettleOutcome::Unsettled(Unsettled::Dwelling), start, index_of(cycle))
@@ -324,15 +324,15 @@ fn undithered(settings: &AttractorSettings<'_>, starts: &[Start]) -> Vec<Result<
 }
 
 /// The summary of the block that begins at a state.
-fn one_block(settings: &AttractorSettings<'_>, start: Start) -> Result<BlockSummary, Stalled> {
+fn one_block(settings: &AttractorSettings, start: Start) -> Result<BlockSummary, Stalled> {
     let (period, count) = (settings.section.period, block(settings));
     let mut observer = BlockObserver::new(period, count);
-    simulate(settings.belt, start, count as f64 * period, DEFAULT_TOLERANCE, &mut observer)?;
+    simulate(&settings.belt, start, count as f64 * period, DEFAULT_TOLERANCE, &mut observer)?;
     Ok(BlockSummary::of(&observer, &observer.section()))
 }
 
 /// The start, displaced if it is on an unstable base response.
-fn nudged(settings: &AttractorSettings<'_>, start: Start) -> Start {
+fn nudged(settings: &AttractorSettings, start: Start) -> Start {
     let start = Start { time: 0.0, ..start };
     let nudge = NUDGE * settings.belt.normal_load();
     match &settings.base {
@@ -363,7 +363,7 @@ impl RunHistory {
     /// Evaluates a block; `None` to continue.
     fn after(
         &mut self,
-        settings: &AttractorSettings<'_>,
+        settings: &AttractorSettings,
         patience: Patience,
         observer: &BlockObserver<'_>,
         end: &FinalState,
@@ -504,7 +504,7 @@ impl RunHistory {
 
 impl Settled {
     /// Whether it is at rest, held by friction on a belt that does not move.
-    pub(super) fn is_at_rest(&self, settings: &AttractorSettings<'_>) -> bool {
+    pub(super) fn is_at_rest(&self, settings: &AttractorSettings) -> bool {
         let moments = &self.summary.moments;
         let still = ONE_STATE * settings.belt.normal_load();
         settings.is_autonomous() && settings.belt.belt_velocity() == 0.0 && moments.size() <= still

@@ -68,6 +68,9 @@ class Result(Frozen):
         _arrays: Arrays | None
         _description: dict[str, Any] | None
 
+    answer: str
+    """What the result is, as in the JSON of the command line: ``window`` of ``response(window=…)``."""
+
     sentence: str
     """The result in one sentence, if the verb has one."""
 

@@ -58,15 +58,6 @@ pub trait Outcome: Send + Sync {
     /// Every field, with units, reasons for null fields, and warnings.
     fn json(&self) -> Json;
 
-    /// The same after its name, in `answer`: the object that the command line prints with `--json`.
-    fn named_json(&self) -> Json {
-        let mut json = self.json();
-        if let Json::Object(fields) = &mut json {
-            fields.shift_insert(1.min(fields.len()), "answer".to_owned(), self.name().into());
-        }
-        json
-    }
-
     /// The fields without the large arrays of [`Outcome::datasets`]; only a map has such arrays.
     fn facts(&self) -> Json {
         self.json()
@@ -120,6 +111,14 @@ pub trait Outcome: Send + Sync {
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         None
     }
+}
+
+/// The fields of an outcome with its name as the second of them, `answer`: what the command line prints with `--json`, and Python's facts.
+pub fn named(outcome: &dyn Outcome, mut fields: Json) -> Json {
+    if let Json::Object(fields) = &mut fields {
+        fields.shift_insert(1.min(fields.len()), "answer".to_owned(), outcome.name().into());
+    }
+    fields
 }
 
 /// The result of a verb for a study of kind `K`; with its study it is an [`Outcome`], whose methods these are.

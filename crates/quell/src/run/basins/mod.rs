@@ -17,16 +17,9 @@ mod tests;
 
 use std::sync::atomic::Ordering;
 
-use quell_dynamics::attractor::{
-    AttractorSettings, BasinLabel, Patience, Settled, gather, settle_many,
-};
-use quell_dynamics::attractor::{
-    EndOfRun, NoEnd, SystemAttractor, ends_of_runs, judged_mass, measured_of_one_mass,
-    starts_of_mass,
-};
+use quell_dynamics::attractor::{GroupedStarts, JudgedStarts, StartJudge, SystemAttractor};
 use quell_dynamics::response::dither_reaches_the_band;
-use quell_dynamics::simulation::{Stalled, within};
-use quell_model::{OneMass, System};
+use quell_dynamics::simulation::within;
 
 use super::protocol::Protocol;
 use super::slip::SlipReached;
@@ -162,27 +155,19 @@ fn renamed(why: Failure, from: &str, to: &'static str) -> Failure {
     Failure::Wrong(complaints.iter().map(renamed).collect::<Vec<Complaint>>().into())
 }
 
-/// A value of the parameter: its study, the start of its runs, and its one mass, if its sections judge them.
+/// A value of the parameter: its study, the start of its runs, and the row that is observed.
 struct Scene {
     value: Option<f64>,
     study: SystemStudy,
     begun: Vec<f64>,
-    mass: Option<OneMass>,
+    observe: Vec<f64>,
 }
 
 /// The starts of one task.
 struct StartsOfTask {
-    ends: PartEnds,
+    ends: JudgedStarts,
     /// The largest slip speed that they reach at each contact.
     slip: Vec<f64>,
-}
-
-/// Where the starts of one task end.
-enum PartEnds {
-    /// By the sections of one mass, not yet grouped.
-    Settled(Vec<Result<Settled, Stalled>>),
-    /// Each by itself.
-    Each(Vec<Result<EndOfRun, NoEnd>>),
 }
 
 /// Settles every start and groups the starts by motion.
@@ -215,8 +200,8 @@ pub fn run(
         let numbers: Vec<_> = over.clone().zip(value).into_iter().collect();
         let at = study.varied(&numbers)?;
         let begun = Protocol::Study.state(&at, at.system())?;
-        let mass = judged_mass(at.system());
-        Ok(Scene { value, study: at, begun, mass })
+        let observe = at.observe();
+        Ok(Scene { value, study: at, begun, observe })
     });
     let scenes = scenes.collect::<Result<Vec<_>, Failure>>()?;
     running.progress.begin(scenes.len() * starts.len(), 0);
@@ -241,12 +226,11 @@ struct BasinsPlan<'a> {
 impl BasinsPlan<'_> {
     /// The portrait of each value. Parts of the starts go to any free thread; the outcome of a run is independent of all others.
     fn portraits(&self, running: Running<'_>) -> Result<Vec<Portrait>, Failure> {
-        let settings: Vec<Option<AttractorSettings<'_>>> = self
+        let judges: Vec<StartJudge<'_>> = self
             .scenes
             .in_parallel(|scene| {
-                // Without a common period no section judges: the runs say so.
-                let belt = scene.mass.as_ref()?.belt();
-                within(STEPS_OF_A_SEARCH, || AttractorSettings::new(belt)).ok()
+                let judge = || StartJudge::new(scene.study.system(), &scene.observe);
+                within(STEPS_OF_A_SEARCH, judge)
             })
             .collect();
         let together = self.starts.len().div_ceil(LEAST_TASKS).clamp(1, TOGETHER);
@@ -258,29 +242,21 @@ impl BasinsPlan<'_> {
             if running.stop.load(Ordering::Relaxed) {
                 return Err(stopped("basins"));
             }
-            let ends = self.part(&self.scenes[*scene], settings[*scene].as_ref(), part);
+            let ends = self.part(&self.scenes[*scene], &judges[*scene], part);
             running.progress.advance(part.len());
             Ok(ends)
         });
         let mut ends = ends.collect::<Result<Vec<_>, Failure>>()?.into_iter();
-        let each: Vec<(&Scene, Option<&AttractorSettings<'_>>, Vec<StartsOfTask>)> = self
-            .scenes
-            .iter()
-            .zip(&settings)
-            .map(|(scene, settings)| {
-                (scene, settings.as_ref(), ends.by_ref().take(parts.len()).collect())
-            })
-            .collect();
-        each.in_parallel(|(scene, settings, ends)| self.portrait(scene, *settings, ends)).collect()
+        let each = self.scenes.iter().zip(&judges).map(|(scene, judge)| {
+            let ends: Vec<StartsOfTask> = ends.by_ref().take(parts.len()).collect();
+            (scene, judge, ends)
+        });
+        let each: Vec<(&Scene, &StartJudge<'_>, Vec<StartsOfTask>)> = each.collect();
+        each.in_parallel(|(scene, judge, ends)| self.portrait(scene, judge, ends)).collect()
     }
 
     /// Where some starts of one value end, and the slip that they reach.
-    fn part(
-        &self,
-        scene: &Scene,
-        settings: Option<&AttractorSettings<'_>>,
-        part: &[[f64; 2]],
-    ) -> StartsOfTask {
+    fn part(&self, scene: &Scene, judge: &StartJudge<'_>, part: &[[f64; 2]]) -> StartsOfTask {
         let states = part.iter().map(|values| {
             let mut state = scene.begun.clone();
             for (place, value) in self.places.iter().zip(values) {
@@ -292,13 +268,8 @@ impl BasinsPlan<'_> {
         let system = scene.study.system();
         let mut slip = SlipReached::new(system);
         slip.add_all(system, &states);
-        let ends = if let (Some(mass), Some(settings)) = (&scene.mass, settings) {
-            let starts = starts_of_mass(mass, &states);
-            let steps = STEPS_OF_A_SEARCH.saturating_mul(starts.len() as u64);
-            PartEnds::Settled(within(steps, || settle_many(settings, &starts, Patience::BASIN)))
-        } else {
-            PartEnds::Each(ends_of_runs(system, &scene.study.observe(), &states))
-        };
+        let steps = STEPS_OF_A_SEARCH.saturating_mul(states.len() as u64);
+        let ends = within(steps, || judge.of(&states));
         StartsOfTask { ends, slip: slip.largest() }
     }
 
@@ -306,146 +277,78 @@ impl BasinsPlan<'_> {
     fn portrait(
         &self,
         scene: &Scene,
-        settings: Option<&AttractorSettings<'_>>,
+        judge: &StartJudge<'_>,
         parts: &[StartsOfTask],
     ) -> Result<Portrait, Failure> {
-        let mut settled: Vec<Result<Settled, Stalled>> = Vec::new();
-        let mut each: Vec<Result<EndOfRun, NoEnd>> = Vec::new();
-        let system = scene.study.system();
-        let mut slip = SlipReached::new(system);
+        let mut slip = SlipReached::new(scene.study.system());
         for part in parts {
             slip.include(&part.slip);
-            match &part.ends {
-                PartEnds::Settled(part) => settled.extend(part.iter().copied()),
-                PartEnds::Each(part) => each.extend(part.iter().cloned()),
-            }
         }
-        let grouped = match (&scene.mass, settings) {
-            (Some(mass), Some(settings)) => of_one_mass((&scene.study, mass), settings, &settled)?,
-            _ => Grouped::of(system, each),
-        };
-        grouped.motions.iter().for_each(|(motion, _)| slip.include(&motion.largest_slip));
-        Ok(grouped.portrait(scene, self.layout, slip.largest()))
+        let ends = parts.iter().map(|part| part.ends.clone());
+        let grouped = within(STEPS_OF_MANY_SEARCHES, || judge.grouped(ends));
+        let grouped = grouped.map_err(|why| failed("basins", why))?;
+        for (motion, _) in &grouped.motions {
+            slip.include(&motion.largest_slip);
+        }
+        Ok(portrait(grouped, scene, self.layout, slip.largest()))
     }
 }
 
-/// Starts grouped by motion.
-#[derive(Default)]
-struct Grouped {
-    /// The motions, with the most periods that a start took.
-    motions: Vec<(SystemAttractor, u32)>,
-    /// The motion of each start.
-    ends: Vec<Option<usize>>,
-    /// Why outcomes are unknown, each with its number of starts.
-    reasons: Vec<(String, usize)>,
+/// Why outcomes are unknown, each with its number of starts.
+fn reasons(ends: &[Result<usize, String>]) -> Vec<(String, usize)> {
+    let mut reasons: Vec<(String, usize)> = Vec::new();
+    for why in ends.iter().filter_map(|end| end.as_ref().err()) {
+        match reasons.iter_mut().find(|(known, _)| known == why) {
+            Some((_, count)) => *count += 1,
+            None => reasons.push((why.clone(), 1)),
+        }
+    }
+    reasons
 }
 
-/// Runs of one mass grouped by the sections of their attractors, each of which is measured once.
-fn of_one_mass(
-    (study, mass): (&SystemStudy, &OneMass),
-    settings: &AttractorSettings<'_>,
-    settled: &[Result<Settled, Stalled>],
-) -> Result<Grouped, Failure> {
-    let gathered = within(STEPS_OF_MANY_SEARCHES, || gather(settings, settled))
-        .map_err(|why| failed("basins", why))?;
-    let periods = |basin: usize| {
-        let mine = gathered.labels.iter().zip(settled).filter_map(|(label, run)| {
-            let is_mine = *label == BasinLabel::Attractor(basin);
-            run.as_ref().ok().filter(|_| is_mine).map(|run| run.periods)
-        });
-        u32::try_from(mine.max().unwrap_or(0)).unwrap_or(u32::MAX)
+/// The portrait of one value.
+fn portrait(
+    grouped: GroupedStarts,
+    scene: &Scene,
+    layout: StartLayout,
+    largest_slip: Vec<f64>,
+) -> Portrait {
+    let system = scene.study.system();
+    let GroupedStarts { motions, ends } = grouped;
+    let count = |place: usize| ends.iter().filter(|end| **end == Ok(place)).count();
+    let mut order: Vec<usize> = (0..motions.len()).collect();
+    order.sort_by_key(|place| (!motions[*place].0.quiet, usize::MAX - count(*place)));
+    let rank = |place: usize| order.iter().position(|other| *other == place);
+    let reasons = reasons(&ends);
+    let places = ends.iter().map(|end| end.as_ref().ok().and_then(|place| rank(*place)));
+    let ends: Vec<Option<usize>> = places.collect();
+    let inside = |holds: &dyn Fn(usize) -> bool| -> Vec<bool> {
+        ends.iter().map(|end| end.is_some_and(holds)).collect()
     };
-    let row = study.observe();
-    let motions = gathered.basins.iter().enumerate().map(|(place, basin)| {
-        let periods = periods(place);
-        let found = measured_of_one_mass((study.system(), mass), &row, &basin.attractor, periods);
-        let found = found.map_err(|why| failed("basins", why))?;
-        Ok((found, periods))
-    });
-    let motions = motions.collect::<Result<Vec<_>, Failure>>()?;
-    let mut grouped = Grouped { motions, ..Grouped::default() };
-    for label in &gathered.labels {
-        let end = match label {
-            BasinLabel::Attractor(place) => Ok(*place),
-            BasinLabel::Unsettled(why) => Err(why.about()),
-            BasinLabel::Stalled(stalled) => Err(stalled.why),
-        };
-        grouped.add(end.map_err(str::to_owned));
-    }
-    Ok(grouped)
-}
-
-impl Grouped {
-    /// Ends of runs, of which the same motions are one.
-    fn of(system: &System, found: Vec<Result<EndOfRun, NoEnd>>) -> Self {
-        let mut grouped = Self::default();
-        for end in found {
-            let end = end.map(|EndOfRun { attractor, periods }| {
-                let motions = &mut grouped.motions;
-                let place = motions.iter().position(|(known, _)| attractor.is(known, system));
-                let place = place.unwrap_or_else(|| {
-                    motions.push((attractor, 0));
-                    motions.len() - 1
-                });
-                motions[place].1 = motions[place].1.max(periods);
-                place
-            });
-            grouped.add(end.map_err(|why| why.to_string()));
-        }
-        grouped
-    }
-
-    /// Adds the end of a start: the place of its motion, or why it is unknown.
-    fn add(&mut self, end: Result<usize, String>) {
-        match end {
-            Ok(place) => self.ends.push(Some(place)),
-            Err(why) => {
-                self.ends.push(None);
-                match self.reasons.iter_mut().find(|(known, _)| *known == why) {
-                    Some((_, count)) => *count += 1,
-                    None => self.reasons.push((why, 1)),
-                }
-            }
-        }
-    }
-
-    /// The portrait of one value.
-    fn portrait(self, scene: &Scene, layout: StartLayout, largest_slip: Vec<f64>) -> Portrait {
-        let system = scene.study.system();
-        let Self { motions, ends, reasons } = self;
-        let count = |place: usize| ends.iter().filter(|end| **end == Some(place)).count();
-        let mut order: Vec<usize> = (0..motions.len()).collect();
-        order.sort_by_key(|place| (!motions[*place].0.quiet, usize::MAX - count(*place)));
-        let rank = |place: usize| order.iter().position(|other| *other == place);
-        let ends: Vec<Option<usize>> = ends.iter().map(|end| end.and_then(rank)).collect();
-        let inside = |holds: &dyn Fn(usize) -> bool| -> Vec<bool> {
-            ends.iter().map(|end| end.is_some_and(holds)).collect()
-        };
-        let basins: Vec<FoundBasin> = order
-            .iter()
-            .enumerate()
-            .map(|(number, place)| FoundBasin {
-                attractor: motions[*place].0.clone(),
-                share: Share::of(layout, &inside(&|end| end == number)),
-                periods: motions[*place].1,
-            })
-            .collect();
-        let open: Vec<bool> = ends.iter().map(Option::is_none).collect();
-        let ends_quiet = inside(&|end| basins[end].attractor.quiet);
-        let quiet = open.contains(&false).then(|| Share::between(layout, &ends_quiet, &open));
-        let unknown = Share::of(layout, &open);
-        Portrait {
-            value: scene.value,
-            is_dithered: system.is_dithered(),
-            in_band: system.is_dithered() && dither_reaches_the_band(system),
-            local: local_verdict(system),
-            basins,
-            ends,
-            quiet,
-            unknown,
-            reasons,
-            largest_slip,
-        }
+    let basins: Vec<FoundBasin> = order
+        .iter()
+        .enumerate()
+        .map(|(number, place)| FoundBasin {
+            attractor: motions[*place].0.clone(),
+            share: Share::of(layout, &inside(&|end| end == number)),
+            periods: motions[*place].1,
+        })
+        .collect();
+    let open: Vec<bool> = ends.iter().map(Option::is_none).collect();
+    let ends_quiet = inside(&|end| basins[end].attractor.quiet);
+    let quiet = open.contains(&false).then(|| Share::between(layout, &ends_quiet, &open));
+    let unknown = Share::of(layout, &open);
+    Portrait {
+        value: scene.value,
+        is_dithered: system.is_dithered(),
+        in_band: system.is_dithered() && dither_reaches_the_band(system),
+        local: local_verdict(system),
+        basins,
+        ends,
+        quiet,
+        unknown,
+        reasons,
+        largest_slip,
     }
 }
 
