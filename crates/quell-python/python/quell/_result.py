@@ -30,7 +30,7 @@ __all__ = ["Result", "numbers_of"]
 T = TypeVar("T")
 Self = TypeVar("Self", bound="Result")
 
-REPORTED_ELSEWHERE = ("ok", "units", "why", "warnings")
+REPORTED_ELSEWHERE = ("ok", "answer", "units", "why", "warnings")
 """Facts that every result has as properties."""
 
 

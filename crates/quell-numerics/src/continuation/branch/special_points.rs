@@ -19,6 +19,10 @@ const GROWTH: f64 = 2.0;
 const FARTHEST: f64 = 2e-2;
 const LEAST_PART: f64 = 1e-2;
 
+/// How many times faster than at the grazing point the state may change beyond a gap: up to twice as fast in cases that were met. A response
+/// of another branch, which a search beyond the end of this one may find, was 800 times as far.
+const STEEPEST: f64 = 50.0;
+
 /// Halvings of the interval in which the branch begins beyond a gap: its width is an error of a thousandth of the gap then.
 const HALVINGS: u32 = 10;
 
@@ -255,6 +259,8 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         let (state, at) = self.unscaled(&grazing.unknowns);
         let share = grazing.unknowns[n];
         let slope = grazing.tangent[n].abs() * STEEP;
+        // How fast the state changes with the parameter at the grazing point, and one where it hardly does.
+        let rate = 1.0 / grazing.tangent[n].abs().max(f64::MIN_POSITIVE);
         let nearest = NEAREST * slope.clamp(LEAST_SHARE, 1.0);
         let width = (self.follow.to - self.follow.from).abs();
         let farthest = FARTHEST * (at.abs() / width).max(LEAST_PART);
@@ -265,6 +271,7 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
                 if (0.0..=1.0).contains(&far)
                     && let Some(found) = self.standing(&state, far, side)
                     && (side == towards || found.image.signature != grazing.image.signature)
+                    && (away == nearest || state_change(grazing, &found) <= STEEPEST * rate * away)
                     && self.is_joined(grazing, &found, side)
                 {
                     let gap = if away == nearest { 0.0 } else { self.gap(grazing, &found, side) };
@@ -283,16 +290,15 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         found: &BranchSolution<F::Signature>,
         side: f64,
     ) -> f64 {
-        let (share, n) = (grazing.parameter(), grazing.unknowns.len() - 1);
+        let share = grazing.parameter();
         let (mut none, mut begins) = (share, found.clone());
         for _ in 0..HALVINGS {
             let middle = 0.5 * (none + begins.parameter());
             let part = (middle - share) / (begins.parameter() - share);
-            let far = distance(&grazing.unknowns[..n], &begins.unknowns[..n]);
+            let far = state_change(grazing, &begins);
             let nearer = self.part_way((grazing, &begins), part, side);
-            let tends = |nearer: &BranchSolution<F::Signature>| {
-                distance(&grazing.unknowns[..n], &nearer.unknowns[..n]) <= far
-            };
+            let tends =
+                |nearer: &BranchSolution<F::Signature>| state_change(grazing, nearer) <= far;
             match nearer.filter(tends) {
                 Some(nearer) => begins = nearer,
                 None => none = middle,
@@ -308,12 +314,10 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         found: &BranchSolution<F::Signature>,
         side: f64,
     ) -> bool {
-        let n = grazing.unknowns.len() - 1;
-        let far = distance(&grazing.unknowns[..n], &found.unknowns[..n]);
+        let far = state_change(grazing, found);
         TENDING.into_iter().any(|(part, most)| {
-            self.part_way((grazing, found), part, side).is_some_and(|nearer| {
-                distance(&grazing.unknowns[..n], &nearer.unknowns[..n]) <= most * far + 1e-8
-            })
+            self.part_way((grazing, found), part, side)
+                .is_some_and(|nearer| state_change(grazing, &nearer) <= most * far + 1e-8)
         })
     }
 
@@ -372,4 +376,10 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         }
         (near, far)
     }
+}
+
+/// The scaled distance of the states of two solutions.
+fn state_change<S>(one: &BranchSolution<S>, other: &BranchSolution<S>) -> f64 {
+    let n = one.unknowns.len() - 1;
+    distance(&one.unknowns[..n], &other.unknowns[..n])
 }
