@@ -2,6 +2,7 @@
 
 use serde_json::Value as Json;
 
+use crate::place::Place;
 use crate::repository::{quell, words};
 
 /// Decreasing law, v₀ = 1, ζ = 0.005, sine tangential dither with R = 10, D = 6.
@@ -253,29 +254,80 @@ fn a_lost_branch_does_not_discard_other_results() {
     }
 }
 
-/// Where a stick begins with a static level above μ(0⁺) no response exists next to the grazing: how far that reaches is stated as an error, and
-/// does not depend on the range.
+/// Where a stick begins with a static level above μ(0⁺) no response exists next to the grazing: the interval is stated, does not depend on the
+/// range, and every verb knows the response beyond it.
 #[test]
-fn a_gap_beyond_a_grazing_is_an_error_of_the_threshold() {
+fn a_gap_beyond_a_grazing_is_stated() {
     for range in [["0.8", "2"], ["0.95", "1.05"], ["0.5", "20"]] {
         let found = thresholds("studies/own-friction-law.toml", "dither.amplitude", range, &[]);
         let local = &found["local"][0];
-        let number = |key: &str| local[key].as_f64().expect("a number");
-        assert!((number("value") - 0.990_450_492).abs() < 1e-8, "{local}");
+        let number = |value: &Json| value.as_f64().expect("a number");
+        let [grazing, end] = ["from", "to"].map(|end| number(&found["gaps"][0][end]));
+        assert_eq!(number(&local["value"]), grazing);
+        assert!(
+            (grazing - 0.990_450_492).abs() < 1e-8 && number(&local["error"]) < 1e-9,
+            "{local}"
+        );
         // A run from rest is in step with the dither from 0.991073 on.
-        assert!((0.6e-3..1.5e-3).contains(&number("error")), "{local}");
+        assert!((end - 0.991_073).abs() < 2e-6, "{end}");
         assert_eq!((&local["was"], &local["becomes"]), (&"unstable".into(), &"stable".into()));
-        let warning = found["warnings"][0].as_str().expect("a warning");
-        assert!(warning.contains("no response was found"), "{warning}");
+        let [sentence, warning] = [&found["sentence"], &found["warnings"][0]];
+        assert!(sentence.as_str().is_some_and(|text| text.contains("0.99107")), "{sentence}");
+        assert!(
+            warning.as_str().is_some_and(|text| text.contains("no response was found")),
+            "{warning}"
+        );
         // `orbit` knows the base response from the end of the gap on, and none in it.
         for (share, response) in
-            [(-0.01_f64, "base"), (0.5, "reached"), (1.01, "base"), (2.0, "base")]
+            [(-0.01_f64, "base"), (0.5, "reached"), (1.02, "base"), (2.0, "base")]
         {
-            let amplitude = share.mul_add(number("error"), number("value"));
+            let amplitude = share.mul_add(end - grazing, grazing);
             let set = format!("dither.amplitude={amplitude}");
             let (orbit, _) = quell(&["orbit", "studies/own-friction-law.toml", "--set", &set]);
             assert_eq!(orbit["response"], response, "{share}: {orbit}");
         }
+    }
+}
+
+/// A gap on whose sides the response is stable is no threshold, and yet not all of the range is stable.
+#[test]
+fn a_gap_between_stable_responses_is_not_stable() {
+    let text = "schema = 1\n[belt]\nbelt_velocity = 0.1\ndamping_ratio = 0.01\nnormal_load = 1.0\n[friction]\nlaw = \"coulomb\"\n\
+        static_coefficient = 0.4\ncoefficient = 0.3\n[[dither]]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.99\n\
+        frequency_ratio = 10.0\n";
+    let place = Place::with("orbit-coulomb", &[("coulomb.toml", text)]);
+    for [from, to] in [["0.98", "1"], ["0", "1.98"]] {
+        let range = ["--parameter", "dither.amplitude", "--from", from, "--to", to];
+        let found = place.good(&[&["thresholds", "coulomb.toml"][..], &range].concat());
+        let gap = &found["gaps"][0];
+        let ends = ["from", "to"].map(|end| gap[end].as_f64().expect("a number"));
+        assert!((ends[0] - 0.990_002).abs() < 1e-6 && (ends[1] - 0.992_43).abs() < 2e-5, "{gap}");
+        assert_eq!(found["local"], Json::Array(Vec::new()));
+        let sentence = found["sentence"].as_str().expect("words");
+        assert!(sentence.contains("up to dither.amplitude = 0.990002 and from"), "{sentence}");
+    }
+}
+
+/// Where a stable response with a stick meets the unstable one in slip from below, both end: another stable response, of another branch, begins
+/// at a larger distance of the state, and was taken for the continuation.
+#[test]
+fn no_response_of_another_branch_continues_this_one() {
+    let set = "dither.frequency_ratio=0.5";
+    let found = thresholds(
+        "studies/stribeck-belt.toml",
+        "dither.amplitude",
+        ["0.01", "0.6"],
+        &["--set", set],
+    );
+    let first = &found["local"][0];
+    let value = first["value"].as_f64().expect("a number");
+    assert!((value - 0.087_301_84).abs() < 1e-7, "{first}");
+    assert_eq!((&first["was"], &first["becomes"]), (&"unstable".into(), &"none".into()), "{first}");
+    for amplitude in ["0.0874", "0.1", "0.12", "0.4"] {
+        let amplitude = format!("dither.amplitude={amplitude}");
+        let study = "studies/stribeck-belt.toml";
+        let (orbit, _) = quell(&["orbit", study, "--set", set, "--set", &amplitude]);
+        assert_eq!(orbit["response"], "reached", "{amplitude}");
     }
 }
 

@@ -1,6 +1,8 @@
 //! The base response over the amplitude of a dither: where its verdict changes, and where it ends.
 
-use quell_dynamics::orbit::{BranchEnding, BranchThresholds, OrbitVerdict, ThresholdKind, is_gap};
+use quell_dynamics::orbit::{
+    BranchEnding, BranchThresholds, OrbitVerdict, ResponseGap, ThresholdKind,
+};
 
 use super::quiet::QuietAmplitudes;
 
@@ -40,7 +42,7 @@ impl AmplitudeBranch {
             (threshold.value, threshold.error, threshold.kind, sides)
         });
         let radius = found.branch.first().map(|response| response.radius);
-        Self::of(range, radius, thresholds, found.ending)
+        Self::of(range, radius, thresholds, found.ending).without(&found.gaps)
     }
 
     /// From the thresholds in the order of a branch, the largest multiplier of its first response, and its ending. A branch that turns
@@ -63,7 +65,6 @@ impl AmplitudeBranch {
         for (amplitude, error, kind, [_, becomes]) in thresholds {
             let becomes_quiet = becomes == stable;
             if becomes_quiet != quiet {
-                let amplitude = certain(amplitude, error, becomes_quiet);
                 changes.push(QuietChange { amplitude, error, kind, becomes_quiet });
                 quiet = becomes_quiet;
             }
@@ -82,6 +83,29 @@ impl AmplitudeBranch {
         Self { range, quiet_at_first, changes, end }
     }
 
+    /// The same with nothing quiet within gaps, in which no response is known.
+    fn without(mut self, gaps: &[ResponseGap]) -> Self {
+        for gap in gaps {
+            if let Some(change) = self.changes.iter_mut().find(|at| at.amplitude == gap.grazing) {
+                if change.becomes_quiet == (gap.end > gap.grazing) {
+                    change.amplitude = gap.end;
+                }
+                continue;
+            }
+            let place = self.changes.partition_point(|change| change.amplitude < gap.grazing);
+            let before = place.checked_sub(1).map(|last| self.changes[last].becomes_quiet);
+            if before.unwrap_or(self.quiet_at_first) {
+                let [from, to] = gap.ends();
+                let changes = [(from, false), (to, true)].map(|(amplitude, becomes_quiet)| {
+                    let (error, kind) = (0.0, ThresholdKind::Grazing);
+                    QuietChange { amplitude, error, kind, becomes_quiet }
+                });
+                self.changes.splice(place..place, changes);
+            }
+        }
+        self
+    }
+
     /// The amplitudes that are quiet: beyond the end there is no base response that could be.
     pub fn quiet(&self) -> QuietAmplitudes {
         self.quiet_within(self.range)
@@ -92,15 +116,6 @@ impl AmplitudeBranch {
         let changes = self.changes.iter().map(|change| (change.amplitude, change.becomes_quiet));
         let end = self.end.map(|at| (at, false));
         QuietAmplitudes::of_changes(range, self.quiet_at_first, changes.chain(end))
-    }
-}
-
-/// The amplitude from which it is certain that the base response is quiet, or up to which: nothing within a gap counts as quiet.
-fn certain(amplitude: f64, error: f64, becomes_quiet: bool) -> f64 {
-    match (is_gap(amplitude, error), becomes_quiet) {
-        (false, _) => amplitude,
-        (true, true) => amplitude + error,
-        (true, false) => amplitude - error,
     }
 }
 
@@ -131,10 +146,16 @@ mod tests {
 
     #[test]
     fn nothing_within_a_gap_is_quiet() {
-        let up = (1.0, 0.01, ThresholdKind::Grazing, [UNSTABLE, STABLE]);
-        let down = (4.0, 0.02, ThresholdKind::Grazing, [STABLE, UNSTABLE]);
+        let up = (1.0, 1e-12, ThresholdKind::Grazing, [UNSTABLE, STABLE]);
+        let down = (4.0, 1e-12, ThresholdKind::Grazing, [STABLE, UNSTABLE]);
+        let gap = |grazing, end| ResponseGap { grazing, end };
         let found = branch(&[up, down], BranchEnding::Covered);
-        assert_eq!(found.quiet().intervals(), [(1.01, 3.98)]);
+        let gaps = [gap(1.0, 1.01), gap(2.0, 2.5), gap(4.0, 3.98)];
+        assert_eq!(found.without(&gaps).quiet().intervals(), [(1.01, 2.0), (2.5, 3.98)]);
+        // From another side nothing more is unknown.
+        let found = branch(&[up, down], BranchEnding::Covered);
+        let gaps = [gap(1.0, 0.9), gap(4.0, 4.2), gap(6.0, 7.0)];
+        assert_eq!(found.without(&gaps).quiet().intervals(), [(1.0, 4.0)]);
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub use sliding::{displaced, sliding_verdict};
 pub use threshold_curve::{
     CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
 };
-pub use threshold_kind::{BranchEnding, ThresholdKind, is_gap};
+pub use threshold_kind::{BranchEnding, ResponseGap, ThresholdKind};
 pub use thresholds::{
     BranchResponse, BranchThresholds, SignatureChange, Threshold, branch_thresholds,
 };

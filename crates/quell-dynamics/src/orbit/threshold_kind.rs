@@ -10,13 +10,30 @@
 use quell_numerics::continuation::branch::{End, FixedPointBranch};
 use quell_numerics::continuation::threshold::BifurcationKind as Event;
 
-/// Relative error of a threshold from which it is that of a gap: far above that of a located root, 10⁻¹¹ of a step, and below the gaps that
+/// Least width of a gap, relative to the grazing: far above the error of a located root, 10⁻¹¹ of a step, and below the gaps that
 /// were met, 10⁻³. With a larger value a gap would pass for an exact threshold, with a smaller one the reverse.
-const GAP: f64 = 1e-6;
+const LEAST_GAP: f64 = 1e-6;
 
-/// Whether the error of a threshold is a gap next to a grazing, in which no response is known.
-pub fn is_gap(value: f64, error: f64) -> bool {
-    error > GAP * value.abs()
+/// An interval of the parameter next to a grazing in which no response was found: where a stick begins with a static level above μ(0⁺).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ResponseGap {
+    /// The value of the grazing.
+    pub grazing: f64,
+    /// The value at which the response begins again, known to a thousandth of the gap.
+    pub end: f64,
+}
+
+impl ResponseGap {
+    /// Of a grazing beyond which nothing is known over a distance with its sign; `None` where the response goes on at once.
+    pub(super) fn of(grazing: f64, distance: f64) -> Option<Self> {
+        let is_wide = distance.abs() > LEAST_GAP * grazing.abs();
+        is_wide.then_some(Self { grazing, end: grazing + distance })
+    }
+
+    /// Its ends, ascending.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.grazing.min(self.end), self.grazing.max(self.end)]
+    }
 }
 
 /// The kind of bifurcation at a threshold.

@@ -16,7 +16,7 @@ use quell_numerics::continuation::threshold::BifurcationKind;
 
 use super::family::{BorderGuard, MotionSignature, NoImage, OrbitFamily, SystemAt, shot_of};
 use super::periodic::{NoOrbit, base_response, scale_of, sliding_state};
-use super::threshold_kind::{BranchEnding, ThresholdKind};
+use super::threshold_kind::{BranchEnding, ResponseGap, ThresholdKind};
 use super::verdict::OrbitVerdict;
 use crate::motion::Motion;
 use crate::simulation::EventKind;
@@ -92,6 +92,8 @@ pub struct BranchThresholds {
     pub thresholds: Vec<Threshold>,
     /// Changes of the events, in the order of the branch.
     pub changes: Vec<SignatureChange>,
+    /// Intervals in which no response was found, in the order of the branch.
+    pub gaps: Vec<ResponseGap>,
     /// The computed responses, in the order of the branch.
     pub branch: Vec<BranchResponse>,
     /// How the branch ends.
@@ -156,6 +158,8 @@ pub fn branch_thresholds(
         });
     }
     let changes = branch.special_points.iter().filter_map(signature_change).collect();
+    let gaps = branch.special_points.iter();
+    let gaps = gaps.filter_map(|point| ResponseGap::of(point.parameter, point.gap)).collect();
     let ending = BranchEnding::of(&branch, from, to);
     let branch = branch.points.iter().map(|point| BranchResponse {
         value: point.parameter,
@@ -163,7 +167,7 @@ pub fn branch_thresholds(
         radius: spectral_radius(&point.multipliers),
         signature: point.signature.clone(),
     });
-    Ok(BranchThresholds { thresholds, changes, branch: branch.collect(), ending })
+    Ok(BranchThresholds { thresholds, changes, gaps, branch: branch.collect(), ending })
 }
 
 /// Whether the period of the dithers has no derivative in the parameter: that of two frequencies, one of which varies.

@@ -39,6 +39,8 @@ pub struct SpecialPoint<S> {
     pub parameter: f64,
     /// Bound on its error.
     pub error: f64,
+    /// How far from a grazing point, with its sign, no response was found before the branch goes on; 0 where it goes on at once.
+    pub gap: f64,
     /// Kind of the bifurcation.
     pub kind: BifurcationKind,
     /// The state.

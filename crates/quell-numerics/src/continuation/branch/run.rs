@@ -271,13 +271,9 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             let Some((grazing, error)) = located else { return StepOutcome::Failed };
             self.thresholds(here, &grazing, out);
             let (after, gap) = self.beyond(&grazing, here.tangent[n].signum()).unzip();
-            out.push(self.special_point(
-                BifurcationKind::Grazing,
-                &grazing,
-                error.max(gap.unwrap_or(0.0)),
-                &grazing_side(here, &grazing),
-                after.as_ref(),
-            ));
+            let (kind, side) = (BifurcationKind::Grazing, grazing_side(here, &grazing));
+            let point = self.special_point(kind, &grazing, error, &side, after.as_ref());
+            out.push(SpecialPoint { gap: gap.unwrap_or(0.0), ..point });
             return StepOutcome::Over(after.map(Box::new));
         }
         self.thresholds(here, &next, out);

@@ -194,7 +194,7 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             std::mem::swap(&mut below, &mut above);
         }
         let (state, parameter) = self.unscaled(&solution.unknowns);
-        SpecialPoint { parameter, error, kind, state, below, above }
+        SpecialPoint { parameter, error, gap: 0.0, kind, state, below, above }
     }
 
     /// A solution with the opposite sign of a function, if the function has one sign at three successive solutions but changes
@@ -248,8 +248,8 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
     }
 
     /// The branch beyond a grazing point: forward in the direction of the run, otherwise backward; accepted only if it is
-    /// continuous there. With it the distance in the parameter up to which nothing is known next to the point: 0 where the branch was found
-    /// at once.
+    /// continuous there. With it how far from the point nothing is known, in the parameter and with its sign: 0 where the branch was found at
+    /// once.
     pub(super) fn beyond(
         &self,
         grazing: &BranchSolution<F::Signature>,
@@ -262,7 +262,8 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         // How fast the state changes with the parameter at the grazing point, and one where it hardly does.
         let rate = 1.0 / grazing.tangent[n].abs().max(f64::MIN_POSITIVE);
         let nearest = NEAREST * slope.clamp(LEAST_SHARE, 1.0);
-        let width = (self.follow.to - self.follow.from).abs();
+        let span = self.follow.to - self.follow.from;
+        let width = span.abs();
         let farthest = FARTHEST * (at.abs() / width).max(LEAST_PART);
         for side in [towards, -towards] {
             let mut away = nearest;
@@ -274,8 +275,9 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
                     && (away == nearest || state_change(grazing, &found) <= STEEPEST * rate * away)
                     && self.is_joined(grazing, &found, side)
                 {
-                    let gap = if away == nearest { 0.0 } else { self.gap(grazing, &found, side) };
-                    return Some((found, gap * width));
+                    let gap =
+                        if away == nearest { 0.0 } else { self.gap(grazing, &found, (side, rate)) };
+                    return Some((found, side * gap * span));
                 }
                 away *= GROWTH;
             }
@@ -288,18 +290,19 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         &self,
         grazing: &BranchSolution<F::Signature>,
         found: &BranchSolution<F::Signature>,
-        side: f64,
+        (side, rate): (f64, f64),
     ) -> f64 {
         let share = grazing.parameter();
         let (mut none, mut begins) = (share, found.clone());
         for _ in 0..HALVINGS {
             let middle = 0.5 * (none + begins.parameter());
             let part = (middle - share) / (begins.parameter() - share);
-            let far = state_change(grazing, &begins);
+            // Where the line to the grazing state leads nowhere, the state itself may.
+            let state = self.unscaled(&begins.unknowns).0;
             let nearer = self.part_way((grazing, &begins), part, side);
-            let tends =
-                |nearer: &BranchSolution<F::Signature>| state_change(grazing, nearer) <= far;
-            match nearer.filter(tends) {
+            let nearer = nearer.or_else(|| self.standing(&state, middle, side));
+            let most = STEEPEST * rate * (begins.parameter() - middle).abs();
+            match nearer.filter(|nearer| state_change(&begins, nearer) <= most) {
                 Some(nearer) => begins = nearer,
                 None => none = middle,
             }

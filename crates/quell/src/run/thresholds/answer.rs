@@ -2,7 +2,7 @@
 
 use quell_dynamics::attractor::RunOutcome;
 use quell_dynamics::orbit::{
-    BranchEnding, MotionSignature, OrbitVerdict, SignatureChange, Threshold, is_gap,
+    BranchEnding, MotionSignature, OrbitVerdict, SignatureChange, Threshold,
 };
 use quell_dynamics::response::BAND_END;
 use quell_model::units::Quantity;
@@ -88,21 +88,16 @@ impl Thresholds {
             )
         });
         let beyond = beyond_laws(study, |contact| self.slip[contact]);
-        let local = self.local.iter().flat_map(|local| &local.thresholds);
-        let wide = local.filter(|found| is_gap(found.value, found.error)).map(|found| {
-            let value = self.value(study, found.value);
-            let [low, high] = [-1.0, 1.0].map(|side| found.value + side * found.error);
-            let (low, high) = (self.value(study, low), self.value(study, high));
-            format!(
-                "stability changes between {path} = {low} and {high}, about the {} at {value}: next to it no response was found",
-                found.kind.name()
-            )
+        let gaps = self.local.iter().flat_map(|local| &local.gaps).map(|gap| {
+            let [low, high] = gap.ends().map(|end| self.value(study, end));
+            let grazing = self.value(study, gap.grazing);
+            format!("between {path} = {low} and {high}, next to the grazing at {grazing}, no response was found")
         });
         study
             .warnings()
             .iter()
             .cloned()
-            .chain(wide)
+            .chain(gaps)
             .chain(silent)
             .chain(beyond)
             .chain(in_band)
@@ -136,10 +131,19 @@ impl Thresholds {
                 fields.list("local", found);
                 let changes = local.changes.iter().map(|change| put_change(study, unit, change));
                 fields.list("signature_changes", changes);
+                let gaps = local.gaps.iter().map(|gap| {
+                    let [low, high] = gap.ends();
+                    let mut inner = Fields::of_system(study.units());
+                    inner.measured("from", unit, low).measured("to", unit, high);
+                    inner
+                });
+                fields.list("gaps", gaps);
             }
             Err(why) => {
                 fields.plain("covered", false).unknown("ending", why.to_string());
-                fields.list("local", Vec::new()).list("signature_changes", Vec::new());
+                for name in ["local", "signature_changes", "gaps"] {
+                    fields.list(name, Vec::new());
+                }
             }
         }
         self.put_runs(&mut fields, study, unit);

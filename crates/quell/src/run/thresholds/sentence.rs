@@ -2,7 +2,7 @@
 
 use quell_dynamics::attractor::{RunSwitch, RunSwitches};
 use quell_dynamics::orbit::{
-    BranchEnding, BranchThresholds, NoOrbit, OrbitVerdict, Threshold, ThresholdKind,
+    BranchEnding, BranchThresholds, NoOrbit, OrbitVerdict, ResponseGap, Threshold, ThresholdKind,
 };
 use quell_model::units::Quantity;
 
@@ -42,6 +42,10 @@ impl Limit {
         Self { value, error: None, kind: None, of_range: true }
     }
 
+    fn of_gap(value: f64) -> Self {
+        Self { of_range: false, ..Self::of_range(value) }
+    }
+
     fn of_switch(switch: &RunSwitch) -> Self {
         let is_close = switch.error <= NARROW * switch.value.abs();
         let error = (!is_close).then_some(switch.error);
@@ -50,12 +54,16 @@ impl Limit {
     }
 }
 
-/// Merges neighbouring intervals with the same answer.
+/// Merges intervals with the same answer that meet.
 fn merged<T: PartialEq>(intervals: Vec<Interval<T>>) -> Vec<Interval<T>> {
     let mut merged: Vec<Interval<T>> = Vec::new();
     for interval in intervals {
         match merged.last_mut() {
-            Some(last) if last.answer == interval.answer => last.to = interval.to,
+            Some(last)
+                if last.answer == interval.answer && last.to.value == interval.from.value =>
+            {
+                last.to = interval.to;
+            }
             _ => merged.push(interval),
         }
     }
@@ -189,19 +197,33 @@ impl Thresholds {
         let mut intervals = Vec::new();
         let mut from = Limit::of_range(self.request.window.0);
         let mut answer = OrbitVerdict::of(first.radius, 0.0);
+        let mut gaps = local.gaps.iter().peekable();
         for threshold in &local.thresholds {
+            // Gaps on whose sides the response has one verdict.
+            while let Some(gap) = gaps.next_if(|gap| gap.grazing < threshold.value) {
+                let [low, high] = gap.ends().map(Limit::of_gap);
+                intervals.push(Interval { from, to: low, answer });
+                from = high;
+            }
+            let gap = gaps.next_if(|gap| gap.grazing == threshold.value);
             let criticality = threshold.first_lyapunov.map_err(|why| why.to_string());
             let kind = kind_in_words(study, threshold.kind, &threshold.contacts)
                 + &criticality::clause(&criticality, ", ", "")
                 + &criticality::opening_clause(&threshold.fold, ", ", path);
-            let (value, kind) = (threshold.value, Some(kind));
-            let limit = Limit { value, error: None, kind, of_range: false };
-            intervals.push(Interval { from, to: limit.clone(), answer });
+            let [to, next] = gap.map_or([threshold.value; 2], ResponseGap::ends);
+            let limit = |value| Limit { value, kind: Some(kind.clone()), ..Limit::of_gap(value) };
+            intervals.push(Interval { from, to: limit(to), answer });
+            let limit = limit(next);
             // No response on one side: the branch ends or turns back there.
             let (Some(_), Some(next)) = (threshold.was, threshold.becomes) else {
                 return (merged(intervals), Some(threshold));
             };
             (from, answer) = (limit, next);
+        }
+        for gap in gaps {
+            let [low, high] = gap.ends().map(Limit::of_gap);
+            intervals.push(Interval { from, to: low, answer });
+            from = high;
         }
         let to = super::answer::end_of(local.ending).unwrap_or(self.request.window.1);
         intervals.push(Interval { from, to: Limit::of_range(to), answer });
@@ -214,7 +236,8 @@ impl Thresholds {
         let is_stable =
             |interval: &&Interval<OrbitVerdict>| interval.answer == OrbitVerdict::Stable;
         let stable: Vec<&Interval<OrbitVerdict>> = intervals.iter().filter(is_stable).collect();
-        let covered = end.is_none() && local.ending == BranchEnding::Covered;
+        let covered =
+            end.is_none() && local.ending == BranchEnding::Covered && local.gaps.is_empty();
         let none = if covered && local.thresholds.is_empty() {
             " (no threshold in this range)"
         } else {
@@ -231,14 +254,28 @@ impl Thresholds {
                 }
             }
             ([only], all) => {
+                // Up to where, or from where, the response is unstable next to it, beyond a gap.
+                let place = all.iter().position(|interval| interval == *only).unwrap_or(0);
+                let before = place.checked_sub(1).map(|before| &all[before].to);
+                let after = all.get(place + 1).map(|after| &after.from);
                 let statement = format!("{subject} is stable {}", parameter.interval(only));
                 // Undecided values occur only at thresholds, and are listed in the table.
                 let unstable =
                     all.iter().filter(|interval| interval.answer == OrbitVerdict::Unstable).count();
                 match (only.from.of_range, only.to.of_range) {
                     _ if unstable + 1 < all.len() || all.len() == 1 => format!("{statement}{none}"),
-                    (false, true) => format!("{statement} and unstable below"),
-                    (true, false) => format!("{statement} and unstable above"),
+                    (false, true) => match before.filter(|limit| limit.value < only.from.value) {
+                        Some(to) => {
+                            format!("{statement} and unstable up to {}", parameter.number(to))
+                        }
+                        None => format!("{statement} and unstable below"),
+                    },
+                    (true, false) => match after.filter(|limit| limit.value > only.to.value) {
+                        Some(from) => {
+                            format!("{statement} and unstable from {} on", parameter.number(from))
+                        }
+                        None => format!("{statement} and unstable above"),
+                    },
                     _ => format!("{statement} and unstable outside this interval"),
                 }
             }
