@@ -244,7 +244,7 @@ fn thresholds_answer_with_the_number() {
         ),
         "The base response is stable up to dither.amplitude = 4.32239 (neimark-sacker, subcritical: the motion jumps) and from \
          dither.amplitude = 9.90021 on (grazing). \
-         For runs from rest, the dither quenches up to dither.amplitude = 2.86785 and from dither.amplitude = 9.90021 on (grazing). \
+         For runs from rest, which end quiet without dither, the motion stays quiet up to dither.amplitude = 2.86785 and from dither.amplitude = 9.90021 on (grazing). \
          For runs from the undithered limit cycle, the dither quenches from dither.amplitude = 9.90021 on (grazing)."
     );
     assert_eq!(

@@ -2,7 +2,7 @@
 //!
 //! Runs that settle on the base response form one group. Others are distinguished by centre, size and shape of their sections:
 //! those that agree within `SAME_ATTRACTOR` of the size are one attractor. Locked responses of slightly different period on one
-//! curve count as one. A curve on which the motion nearly repeats itself after a few periods is filled so slowly that the centres
+//! curve count as one, and so do runs whose sections differ but which end on one orbit. A curve on which the motion nearly repeats itself after a few periods is filled so slowly that the centres
 //! and sizes of two runs on it differ: measured curves are compared once more, as sets of states.
 
 use super::measure::{Attractor, AttractorKind, measure};
@@ -108,7 +108,10 @@ pub fn gather(
             basin_of.push(found.len());
             continue;
         };
-        let same = found.iter().position(|(_, basin)| same_curve(&basin.attractor, &attractor));
+        let is_same = |known: &Attractor| {
+            same_orbit(known, &attractor, floor) || same_curve(known, &attractor)
+        };
+        let same = found.iter().position(|(_, basin)| is_same(&basin.attractor));
         basin_of.push(same.unwrap_or(found.len()));
         match same {
             Some(same) => found[same].1.starts += group.starts,
@@ -125,6 +128,17 @@ pub fn gather(
     }
     let basins = order.iter().map(|index| found[*index].1.clone()).collect();
     Ok(BasinsOfAttraction { basins, labels })
+}
+
+/// Whether two motions are one orbit: of as many periods, and the first state of one is a state of the other.
+fn same_orbit(one: &Attractor, other: &Attractor, floor: f64) -> bool {
+    let periods = |attractor: &Attractor| match attractor.kind {
+        AttractorKind::Periodic { periods, .. } => Some(periods),
+        _ => None,
+    };
+    let Some(&(x, v)) = one.section.first() else { return false };
+    let is_here = |state: &(f64, f64)| libm::hypot(state.0 - x, state.1 - v) <= floor;
+    periods(one).is_some() && periods(one) == periods(other) && other.section.iter().any(is_here)
 }
 
 /// Whether two quasi-periodic motions fill the same curve: the states of each lie on the section of the other.

@@ -122,9 +122,9 @@ pub fn orbit_of_run(system: &System, start: &[f64]) -> Result<SettledMotion, NoE
         return settled(system, start).map_err(NoEnd::NoOrbit);
     }
     let EndOfRun { attractor, periods } = end_of_run(system, &[1.0], start)?;
-    let unsettled = |tried, is_steady| {
+    let unsettled = |tried| {
         let last = attractor.states.clone();
-        NoEnd::NoOrbit(NoOrbit::Unsettled { periods: tried, last, is_steady })
+        NoEnd::NoOrbit(NoOrbit::Unsettled { periods: tried, last, is_steady: true })
     };
     let (orbit, multiple) = match attractor.kind {
         MotionKind::Periodic { periods, .. } => (near(system, &attractor.state, periods), periods),
@@ -134,8 +134,9 @@ pub fn orbit_of_run(system: &System, start: &[f64]) -> Result<SettledMotion, NoE
             let period = period(system).ok_or(NoEnd::NoPeriod)?;
             (orbit_at(&motion, &attractor.state, period, false), 1)
         }
-        MotionKind::QuasiPeriodic { tried } => return Err(unsettled(tried, true)),
-        MotionKind::NotPeriodic { tried } => return Err(unsettled(tried, false)),
+        MotionKind::QuasiPeriodic { tried } | MotionKind::NotPeriodic { tried } => {
+            return Err(unsettled(tried));
+        }
         MotionKind::Cycle { .. } => return Err(NoEnd::NoOrbit(NoOrbit::NoDither)),
     };
     Ok(SettledMotion { orbit: orbit.map_err(NoEnd::NoOrbit)?, multiple, periods })

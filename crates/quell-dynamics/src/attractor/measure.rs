@@ -58,8 +58,13 @@ const MOST_SHOTS: usize = 4;
 /// smaller one a curve with sticks, whose averages converge slowly, would remain unclassified.
 const STEADY: f64 = 1e-5;
 
-/// Most records of one run: 8192 periods or more. A motion that needs longer to close or to fill its curve is unclassified.
-const RECORDS: u32 = 8;
+/// Range of the displacement, relative to F, up to which a mass on a belt at rest is at rest: a dither at the level of static friction moves it
+/// by rounding. With a larger value a dither slightly above that level would be said to move nothing.
+const STILL: f64 = 1e-9;
+
+/// Most records of one run: 32 768 periods or more. A motion that needs longer to close or to fill its curve is unclassified: with 8 records
+/// starts that lock after 20 000 periods were.
+const RECORDS: u32 = 32;
 
 /// The kind of an attractor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -337,7 +342,8 @@ fn observed(settings: &AttractorSettings, found: &Classified) -> Result<Attracto
     let (observer, extremes) = observers;
     let stick_fraction = observer.stuck / length;
     // Held by friction on a belt that does not move: the dither does not show in the motion.
-    let rests = settings.belt.belt_velocity() == 0.0 && extremes.highest == extremes.lowest;
+    let still = STILL * settings.belt.normal_load();
+    let rests = settings.belt.belt_velocity() == 0.0 && extremes.highest - extremes.lowest <= still;
     let kind = if rests { AttractorKind::Rest } else { kind };
     let section = observer.section();
     let states = || observer.states().collect::<Vec<_>>();

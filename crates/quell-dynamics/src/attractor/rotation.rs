@@ -38,6 +38,11 @@ pub(super) fn samples_per_orbit_period(period: f64) -> usize {
 /// denominator counts as filling its curve; with a much larger limit no motion would fill its curve within a record.
 const DENOMINATORS: u32 = 64;
 
+/// How often a motion on a curve must have crossed every gap. A locked orbit on the curve stops one that creeps before it has crossed the gap
+/// once; its speed, by which crossings are counted, is smaller there than on the way. With 1 a motion that locked after 40 000 periods
+/// counted as a curve; with a larger value curves near locking take longer.
+const CROSSINGS: f64 = 3.0;
+
 /// A locked motion: `turns` revolutions in `periods` periods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Ratio {
@@ -86,12 +91,12 @@ impl Rotation {
     }
 
     /// Whether a motion has filled its curve in `periods` periods: relative to every fraction p/q of a small denominator it
-    /// has moved by more than 1/q of a revolution, the gap between the q states that it nearly repeats.
+    /// has moved by more than `CROSSINGS`/q of a revolution, 1/q being the gap between the q states that it nearly repeats.
     pub(super) fn fills(&self, periods: usize) -> bool {
         (1..=DENOMINATORS).all(|q| {
             let q = f64::from(q);
             let nearest = (self.turns_per_period * q).round() / q;
-            periods as f64 * (self.turns_per_period - nearest).abs() * q >= 1.0
+            periods as f64 * (self.turns_per_period - nearest).abs() * q >= CROSSINGS
         })
     }
 

@@ -157,8 +157,8 @@ impl fmt::Display for NoOrbit {
             Self::Unsettled { periods, is_steady: true, .. } => {
                 write!(
                     f,
-                    "the run ends on a motion that does not repeat itself: after {periods} periods it no longer changes, and no period \
-                     of up to 200 dither periods was found"
+                    "the run ends on a motion that does not repeat itself: followed over {periods} periods of the dither, it has no period of \
+                     up to 200 of them"
                 )
             }
             Self::Unsettled { periods, is_steady: false, .. } => {

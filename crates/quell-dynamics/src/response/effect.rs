@@ -119,8 +119,8 @@ impl Vibrations {
         let ratio = dithered.whole() / undithered.whole();
         let is_small = if quiet_without { dithered.is_negligible() } else { ratio < QUENCHED };
         let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
-        // However small, a slow motion that stays is no quiet.
-        if is_small && quiet_with != Some(false) {
+        // However small next to the undithered vibration, a slow motion that stays is no quiet.
+        if is_small && (quiet_without || quiet_with != Some(false)) {
             // A vibration too small to be visible may still grow, unless the record is steady or decays, or the run is known to settle
             // without one.
             let decided = dithered.is_steady() || dithered.decays() || quiet_with.is_some();

@@ -257,7 +257,12 @@ impl PeriodicResponse {
             let slips = motions().map(|found| found.samples.largest_slip(contact));
             slips.fold(slides(contact), f64::max)
         });
-        study.warnings().iter().cloned().chain(one_sided).chain(beyond).collect()
+        let shorter = self.found.as_ref().and_then(|found| {
+            let part = found.repeats_after.filter(|part| *part < found.multiple)?;
+            let periods = found.multiple;
+            Some(format!("the motion of {periods} dither periods repeats itself after {part}: its period is shorter than the one given"))
+        });
+        study.warnings().iter().cloned().chain(one_sided).chain(shorter).chain(beyond).collect()
     }
 
     /// As JSON.

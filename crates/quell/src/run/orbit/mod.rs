@@ -22,6 +22,10 @@ mod answer;
 
 pub use answer::sentence;
 
+/// Distance of the states of two orbits, relative to them, within which they are one: far above the error of an orbit, 10⁻¹², and far below
+/// the distance of two.
+const SAME_ORBIT: f64 = 1e-8;
+
 /// The periodic motion to find.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Wanted {
@@ -79,6 +83,8 @@ pub struct FoundMotion {
     pub orbit: Orbit,
     /// Common dither periods in its period; 1 without dither.
     pub multiple: u32,
+    /// The least part of them after which it repeats itself; `None` if it has none.
+    pub repeats_after: Option<u32>,
     /// How it was found.
     pub by: FoundBy,
     /// Its samples over a period.
@@ -147,7 +153,21 @@ fn with_samples(study: &SystemStudy, orbit: Orbit, multiple: u32, by: FoundBy) -
     } else {
         CycleSamples::of(study.system(), &study.observe(), &orbit)
     };
-    FoundMotion { orbit, multiple, by, samples }
+    let repeats_after = repeats_after(study.system(), &orbit, multiple);
+    FoundMotion { orbit, multiple, repeats_after, by, samples }
+}
+
+/// The least part of a number of periods after which an orbit of so many repeats itself.
+fn repeats_after(system: &System, orbit: &Orbit, multiple: u32) -> Option<u32> {
+    let largest = |state: &[f64]| state.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let is_same = |part: &u32| {
+        near(system, &orbit.state, *part).is_ok_and(|shorter| {
+            let off: Vec<f64> =
+                shorter.state.iter().zip(&orbit.state).map(|(a, b)| a - b).collect();
+            largest(&off) <= SAME_ORBIT * largest(&orbit.state)
+        })
+    };
+    (1..multiple).filter(|part| multiple.is_multiple_of(*part)).find(is_same)
 }
 
 /// The motion on which a run ends.

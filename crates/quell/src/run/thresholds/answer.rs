@@ -74,7 +74,7 @@ impl Thresholds {
         });
         let in_band = (self.in_band && !self.runs.is_empty()).then(|| {
             format!(
-                "the dither acts at or below {BAND_END} times the frequency of the vibration, in its band: a run in step with it still \
+                "the dither repeats itself at or below {BAND_END} times the frequency of the vibration, in its band: a run in step with it still \
                  vibrates; `response` gives the remaining amplitude"
             )
         });

@@ -75,6 +75,8 @@ pub struct Thresholds {
     pub resumes: bool,
     /// The changes of each run.
     pub runs: Vec<(Protocol, RunSwitches)>,
+    /// Whether each run ends quiet without dither at both ends of the window, so that there is nothing to quench.
+    pub quiet_without: Vec<bool>,
     /// Whether a dither acts in the band of the fastest growing vibration at an end of the window, so that a motion in step with it
     /// may vibrate.
     pub in_band: bool,
@@ -178,15 +180,29 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
         };
         let run =
             VariedRun { start: &start, ramp: request.ramp, at: &at, most_steps: STEPS_OF_A_SEARCH };
-        (protocol.clone(), side_by_side(&run, request.window))
+        let still = |values: &[f64]| at(values).map(|system| system.undithered());
+        let without = VariedRun { at: &still, ramp: 0.0, ..run };
+        let is_quiet = |value: f64| without.outcome(value).is_quiet() == Some(true);
+        let quiet_without = is_quiet(from) && is_quiet(to);
+        ((protocol.clone(), side_by_side(&run, request.window)), quiet_without)
     });
-    let runs: Vec<(Protocol, RunSwitches)> = runs.collect();
+    let (runs, quiet_without): (Vec<(Protocol, RunSwitches)>, Vec<bool>) = runs.unzip();
     let in_band = [from, to]
         .iter()
         .any(|value| at(&[*value]).is_ok_and(|system| dither_reaches_the_band(&system)));
     let silent = silent.into_inner().unwrap_or_default();
     let (request, slip) = (request.clone(), Vec::new());
-    let found = Thresholds { request, local, resumes, runs, in_band, dithered, slip, silent };
+    let found = Thresholds {
+        request,
+        local,
+        resumes,
+        runs,
+        quiet_without,
+        in_band,
+        dithered,
+        slip,
+        silent,
+    };
     let slip = found.slip(study, &at);
     Ok(Thresholds { slip, ..found })
 }

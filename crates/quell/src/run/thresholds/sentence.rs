@@ -156,8 +156,8 @@ impl Thresholds {
         let mut sentences = vec![first];
         // Starts with the same answer share a sentence.
         let mut answers: Vec<(Vec<String>, String)> = Vec::new();
-        for (protocol, switches) in &self.runs {
-            let answer = self.of_runs(&parameter, switches);
+        for ((protocol, switches), quiet_without) in self.runs.iter().zip(&self.quiet_without) {
+            let answer = self.of_runs(&parameter, switches, *quiet_without);
             let start = protocol.words(study);
             match answers.iter_mut().find(|(_, said)| *said == answer) {
                 Some((starts, _)) => starts.push(start),
@@ -342,11 +342,19 @@ impl Thresholds {
     }
 
     /// The intervals in which runs from a start end quiet.
-    fn of_runs(&self, parameter: &NamedParameter<'_>, switches: &RunSwitches) -> String {
+    fn of_runs(
+        &self,
+        parameter: &NamedParameter<'_>,
+        switches: &RunSwitches,
+        quiet_without: bool,
+    ) -> String {
         let intervals = runs(self.request.window, switches);
         let verb = match (self.dithered, self.in_band) {
             (false, _) => "the run comes to rest or to steady sliding",
             (true, true) => "the run falls into step with the dither",
+            (true, false) if quiet_without => {
+                "which end quiet without dither, the motion stays quiet"
+            }
             (true, false) => "the dither quenches",
         };
         let quenched = intervals.iter().filter(|interval| interval.answer == Some(true));
