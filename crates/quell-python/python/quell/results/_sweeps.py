@@ -44,6 +44,8 @@ class Thresholds(_columns.ThresholdsColumns, Result):
     """
     signature_changes: list[dict[str, Any]]
     """``value`` at which the events of a period change, and the events ``below`` and ``above``."""
+    gaps: list[dict[str, Any]]
+    """Intervals ``from`` … ``to`` next to a grazing in which no response was found."""
     covered: bool
     """Whether the response was continued over the whole range."""
     resumes: bool
