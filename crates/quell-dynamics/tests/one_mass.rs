@@ -147,7 +147,10 @@ fn seen(system: &System, until: f64) -> Seen {
 #[test]
 fn observers_see_what_the_engine_for_systems_in_general_shows_them() {
     let scales = Scales::new(2.0, 50.0).expect("valid");
-    for belt in belts() {
+    // Surfaces that move forwards and backwards.
+    for (belt, direction) in
+        belts().into_iter().flat_map(|belt| [(belt.clone(), 1.0), (belt, -1.0)])
+    {
         let belt = belt.in_si(Some(scales));
         let mut system = belt.system_in_units().expect("in SI").expect("a law");
         // Along a tangent of 2, under a constant force.
@@ -161,7 +164,9 @@ fn observers_see_what_the_engine_for_systems_in_general_shows_them() {
         );
         system.structure = structure.under(vec![3.0]).into();
         system.contacts[0].tangent = Some(vec![2.0]);
-        assert!(system.one_mass().is_some());
+        let surface = &mut system.contacts[0].surface_velocity;
+        *surface = surface.scaled(direction);
+        assert!(system.one_mass().is_some_and(|mass| mass.direction() == direction));
         let (found, known) = (seen(&system, 2.4), seen(&in_general(&system), 2.4));
         let close = |found: f64, known: f64, scale: f64, what: &str| {
             assert!(

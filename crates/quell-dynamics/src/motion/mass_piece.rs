@@ -73,14 +73,14 @@ impl Work for StatesOf<'_, '_> {
     #[inline(always)]
     fn run(self) -> MassStates {
         let MassPiece { mass, raw, unit, rates, contact, .. } = self.0;
-        let (length, direction) = (unit * mass.displacement(), -1.0 / mass.tangent());
+        let (length, direction) = (unit * mass.displacement(), -mass.direction() / mass.tangent());
         let mut states = [0.0; (ORDER + 1) * SIZE];
         let series = raw.0.iter().zip(rates.iter()).zip(&contact.slip);
         for (state, ((x, rate), slip)) in states.as_chunks_mut::<SIZE>().0.iter_mut().zip(series) {
             *state = [length * x * rate, direction * slip];
         }
         states[0] += mass.shift() * mass.displacement();
-        states[1] = -direction * (mass.belt().belt_velocity() - contact.slip[0]);
+        states[1] = -direction * (contact.surface[0] - contact.slip[0]);
         states
     }
 }

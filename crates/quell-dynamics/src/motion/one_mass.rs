@@ -49,6 +49,7 @@ pub(super) fn run_mass(
 ) -> Result<MotionEnd, MotionStopped> {
     let mut view = MassView::new(mass, &start, observer);
     let (units, span) = (view.units, (view.start, mass.rate() * until));
+    let sign = sign.map(|sign| units.sign(sign));
     let outcome = run_belt(mass.belt(), span, sign, tolerance, &mut view);
     units.outcome(outcome, until)
 }
@@ -90,6 +91,7 @@ pub(super) fn shoot_mass(
     let (mut variation, mut recorder) = (Variation::new(belt), EventRecorder::default());
     let mut observer = (&mut variation, &mut recorder);
     let span = (units.start(start), mass.rate() * until);
+    let sign = sign.map(|sign| units.sign(sign));
     let outcome = run_belt(belt, span, sign, tolerance, &mut observer);
     let end = units.outcome(outcome, until)?;
     // What one of each number of the belt's state is in that of the system.
@@ -99,7 +101,7 @@ pub(super) fn shoot_mass(
         time: event.time / mass.rate(),
         contact: 0,
         kind: event.kind,
-        slip_sign: event.slip_sign,
+        slip_sign: units.sign(event.slip_sign),
         state: units.state(event.displacement, event.velocity).to_vec(),
     });
     Ok(MassShot {
@@ -156,6 +158,15 @@ impl MassUnits<'_> {
         self.mass.state(displacement, velocity)
     }
 
+    /// A sign of slip of the contact as that of the belt, or the reverse.
+    fn sign(self, slip_sign: i8) -> i8 {
+        if self.mass.direction() < 0.0 { -slip_sign } else { slip_sign }
+    }
+
+    fn phase(self, slip_sign: i8) -> ContactPhase {
+        phase_of(self.sign(slip_sign))
+    }
+
     /// A moment of the belt.
     fn clock(self, clock: Clock) -> Clock {
         let rate = self.mass.rate();
@@ -184,14 +195,14 @@ impl MassUnits<'_> {
         } else {
             f64::from(end.slip_sign) * belt.friction().coefficient(slip.abs()) * load
         };
-        let phase = phase_of(end.slip_sign);
+        let (phase, direction) = (self.phase(end.slip_sign), mass.direction());
         MotionEnd {
             time: if end.time == mass.rate() * until { until } else { end.time / mass.rate() },
             state: self.state(end.displacement, end.velocity).to_vec(),
             contacts: vec![ContactEnd {
                 phase,
-                slip_velocity: slip,
-                friction: mass.force() * friction,
+                slip_velocity: direction * slip,
+                friction: direction * mass.force() * friction,
                 normal_load: mass.force() * load,
                 bristle: None,
             }],
@@ -253,7 +264,7 @@ impl<'a> MassView<'a> {
             rates[k] = rates[k - 1] * mass.rate();
         }
         let mut contact = ContactSeries::zero();
-        contact.surface[0] = belt.belt_velocity();
+        contact.surface[0] = mass.direction() * belt.belt_velocity();
         let mut view = Self {
             start,
             observer,
@@ -289,7 +300,7 @@ impl<'a> MassView<'a> {
         } else {
             slip
         };
-        phase_of(i8::from(direction > 0.0) - i8::from(direction < 0.0))
+        self.units.phase(i8::from(direction > 0.0) - i8::from(direction < 0.0))
     }
 
     /// Passes on a piece of stick, whose series have been written.
@@ -339,7 +350,7 @@ impl<'a> MassView<'a> {
 
 impl Observer for MassView<'_> {
     fn segment(&mut self, segment: &Segment<'_>) {
-        self.now = ContactNow::of(phase_of(segment.slip_sign()));
+        self.now = ContactNow::of(self.units.phase(segment.slip_sign()));
         let (mut clock, mut rest) = (segment.clock(), segment.duration());
         if segment.slip_sign() != 0 {
             self.pass_breaks(clock);
@@ -363,9 +374,10 @@ impl Observer for MassView<'_> {
 
     fn event(&mut self, event: &Event) {
         let before = self.now.phase;
-        let after = phase_of(event.slip_sign);
+        let slip_sign = self.units.sign(event.slip_sign);
+        let after = phase_of(slip_sign);
         let trigger = match event.kind {
-            EventKind::Release => Trigger::Margin(0, event.slip_sign),
+            EventKind::Release => Trigger::Margin(0, slip_sign),
             _ => Trigger::Slip(0),
         };
         let rate = self.rate(trigger);
@@ -391,7 +403,7 @@ impl Observer for MassView<'_> {
             time,
             contact: 0,
             kind: event.kind,
-            slip_sign: event.slip_sign,
+            slip_sign,
             is_smooth: event.kind == EventKind::Release
                 && !event.is_jump
                 && law.starts_at_static_level(),
@@ -449,10 +461,11 @@ impl Work for SlipWritten<'_, '_, '_> {
         let Self { view, clock, slip } = self;
         view.load(clock, view.unit * view.units.mass.force());
         let (contact, unit) = (&mut view.contact, view.unit);
+        let direction = view.units.mass.direction();
         // A step of slip has all terms; with a known number of them the compiler needs no checks.
         let Some(slip) = slip.first_chunk::<{ ORDER + 1 }>() else { return };
         for (scaled, (slip, rate)) in contact.scaled.iter_mut().zip(slip.iter().zip(&view.rates)) {
-            *scaled = slip * rate;
+            *scaled = direction * slip * rate;
         }
         contact.slip = contact.scaled.map(|term| unit * term);
     }
@@ -517,7 +530,7 @@ impl MassView<'_> {
         contact.scaled = [0.0; ORDER + 1];
         contact.coefficient = [0.0; ORDER + 1];
         for k in 0..=ORDER {
-            contact.friction[k] = mass.force() * friction[k] * rates[k];
+            contact.friction[k] = mass.direction() * mass.force() * friction[k] * rates[k];
         }
     }
 }

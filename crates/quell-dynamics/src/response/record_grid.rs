@@ -100,7 +100,7 @@ impl RecordGrid {
         };
         // Above the Nyquist frequency there are no lines.
         let nyquist = 0.5 * TAU / self.step;
-        if let Some(mass) = system.one_averaged_mass() {
+        if let Some(mass) = system.one_mass().or_else(|| system.one_averaged_mass()) {
             let end = mass.rate() * band_end_of_mass(mass.belt(), reach / mass.rate());
             return if line < end {
                 Ok(end)

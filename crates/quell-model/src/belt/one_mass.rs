@@ -30,6 +30,7 @@ pub struct OneMass {
     belt: Belt,
     rate: f64,
     tangent: f64,
+    direction: f64,
     force: f64,
     shift: f64,
 }
@@ -82,6 +83,12 @@ impl OneMass {
         self.tangent
     }
 
+    /// −1 of a surface that moves backwards, whose mirror image the belt is: slip velocity, friction and t of the contact are those of the belt
+    /// times this. Otherwise 1.
+    pub fn direction(&self) -> f64 {
+        self.direction
+    }
+
     /// Displacement of the belt, from its unstretched spring, that the constant forces of the system cause.
     pub fn shift(&self) -> f64 {
         self.shift
@@ -90,25 +97,32 @@ impl OneMass {
 
 impl System {
     /// The belt that a system is: one coordinate with mass, spring and damper, one rigid contact under a prescribed load on a surface of
-    /// constant velocity v ≥ 0, and periodic or noisy forces and loads. `None` for every other system, and for loads that vanish.
+    /// constant velocity, and periodic or noisy forces and loads; of a surface that moves backwards its mirror image. `None` for every other
+    /// system, and for loads that vanish.
     pub fn one_mass(&self) -> Option<OneMass> {
         let simulated = |one: &OneMass| {
             let belt = &one.belt;
             belt.friction.static_coefficient() >= LEAST_COEFFICIENT && belt.unsimulated().is_none()
         };
         let is_rigid = self.contacts.iter().all(|contact| !contact.has_state());
-        self.one_averaged_mass().filter(|one| is_rigid && simulated(one))
+        self.as_belt().filter(|one| is_rigid && simulated(one))
     }
 
-    /// The same for averages, which a state of the contact and a law that is not analytic at rest do not keep from having a value: the
-    /// contact as a rigid one.
+    /// The same for averages, which are stated for v ≥ 0, and which a state of the contact and a law that is not analytic at rest do not keep
+    /// from having a value: the contact as a rigid one.
     pub fn one_averaged_mass(&self) -> Option<OneMass> {
+        self.as_belt().filter(|one| one.direction > 0.0)
+    }
+
+    fn as_belt(&self) -> Option<OneMass> {
         let mechanical = self.structure.mechanical().filter(|one| one.by_speed().is_none())?;
         let [contact] = &self.contacts[..] else { return None };
         if mechanical.size() != 1 || !is_steady(contact) {
             return None;
         }
-        let tangent = *contact.tangent.as_ref()?.first()?;
+        let velocity = contact.surface_velocity.mean();
+        let direction = if velocity < 0.0 { -1.0 } else { 1.0 };
+        let tangent = direction * *contact.tangent.as_ref()?.first()?;
         let units = Units::of(mechanical, tangent)?;
         let (mut push, mut load) = (mechanical.force()[0] / tangent, contact.normal_load);
         let mut dithers = Vec::new();
@@ -127,7 +141,7 @@ impl System {
         let belt = Belt {
             damping_ratio: 0.5 * units.damping / units.force,
             normal_load: load / units.force,
-            belt_velocity: contact.surface_velocity.mean(),
+            belt_velocity: velocity.abs(),
             friction: contact.friction.clone(),
             dithers,
             tangential_stiffness: None,
@@ -138,12 +152,18 @@ impl System {
         let valid = belt.damping_ratio.is_finite()
             && belt.damping_ratio >= 0.0
             && belt.belt_velocity.is_finite()
-            && belt.belt_velocity >= 0.0
             && belt.normal_load.is_finite()
             && belt.normal_load > 0.0
             && belt.total_amplitude(Direction::Normal) <= belt.normal_load;
         let (shift, Units { rate, force, .. }) = (push / units.force, units);
-        (valid && shift.is_finite()).then_some(OneMass { belt, rate, tangent, force, shift })
+        (valid && shift.is_finite()).then_some(OneMass {
+            belt,
+            rate,
+            tangent,
+            direction,
+            force,
+            shift,
+        })
     }
 }
 
@@ -269,6 +289,25 @@ mod tests {
     }
 
     #[test]
+    fn a_surface_that_moves_backwards_is_the_mirror_image() {
+        let system = belt().system();
+        let mut mirrored = system.clone();
+        mirrored.contacts[0].surface_velocity = Profile::constant(-0.05);
+        for input in &mut mirrored.inputs {
+            if let InputTarget::Force(row) = &mut input.target {
+                row[0] = -row[0];
+            }
+        }
+        let (one, other) = (system.one_mass(), mirrored.one_mass());
+        let [one, other] = [one, other].map(|one| one.expect("one mass"));
+        assert_eq!(one.belt(), other.belt());
+        assert_eq!([one.direction(), other.direction(), other.tangent()], [1.0, -1.0, -1.0]);
+        assert_eq!(other.state(0.3, 0.2), one.state(-0.3, -0.2));
+        // Averages are stated for surfaces that move forwards.
+        assert!(mirrored.one_averaged_mass().is_none());
+    }
+
+    #[test]
     fn other_systems_are_not_one_mass() {
         let system = belt().system();
         let refused = |change: &dyn Fn(&mut System)| {
@@ -279,7 +318,6 @@ mod tests {
         assert!(system.one_mass().is_some());
         refused(&|system| system.contacts[0].normal = Some(vec![1.0]));
         refused(&|system| system.contacts[0].tangential_stiffness = Some(3.0));
-        refused(&|system| system.contacts[0].surface_velocity = Profile::constant(-1.0));
         refused(&|system| system.contacts[0].normal_load = 0.4);
         refused(&|system| system.inputs[0].target = InputTarget::Friction { contact: 0 });
         refused(&|system| system.contacts.push(system.contacts[0].clone()));

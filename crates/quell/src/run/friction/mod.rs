@@ -68,7 +68,7 @@ pub fn run(
 
 /// The mass whose steady responses measure friction.
 fn one_mass(system: &System) -> Result<quell_model::OneMass, Failure> {
-    system.one_mass().ok_or_else(|| {
+    system.one_mass().filter(|mass| mass.direction() > 0.0).ok_or_else(|| {
         let allowed = "left out for other studies than one mass with a rigid contact on a surface of constant velocity, not below 0: \
                        `response` gives the mean friction of every contact in the steady response";
         let origin = Origin::Argument("--measured");
