@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Arrays", "Variable", "arrays"]
 
-NOT_FACTS = ("ok", "units", "why", "warnings", "counts", "axes", "shape", "points", "resumed_points")
+NOT_FACTS = ("ok", "answer", "units", "why", "warnings", "counts", "axes", "shape", "points", "resumed_points")
 """Entries of the facts that are reported elsewhere."""
 
 

@@ -18,7 +18,7 @@ FIRST_COLUMNS = ("name", "direction", "before", "after", "kind", "value", "along
 COMPLEX = ("multipliers", "eigenvalues")
 """Facts that are lists of complex numbers."""
 
-HIDDEN = ("ok", "units", "why", "warnings", "sentence", "method", "protocol")
+HIDDEN = ("ok", "answer", "units", "why", "warnings", "sentence", "method", "protocol")
 
 
 def number(value: object) -> str:
