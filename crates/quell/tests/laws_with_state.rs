@@ -567,3 +567,19 @@ fn bristles_move_in_small_motions() {
     let measured = (deviation(begin + length) / deviation(begin)).ln() / length;
     assert!((measured - growth).abs() < 1e-3 * growth.abs(), "{measured} {growth}");
 }
+
+/// Where no base response exists, the motion on which a run ends is known to be none.
+#[test]
+fn a_motion_without_a_base_response_is_not_the_base_response() {
+    let study = belt(
+        "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"lugre\"\n\
+         static_coefficient = 0.4\ncoefficient = 0.2857\nreference_velocity = 0.1\nbristle_stiffness = 500.0\n\
+         bristle_damping = 1.0\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.7\n\
+         frequency_ratio = 10.0\n",
+    );
+    let verbs = verbs(&Study::from(&study));
+    let orbit = verbs.orbit(&Wanted::Base { periods: 1 }).expect("a motion").json();
+    assert!(text(&orbit["no_base_response"]).contains("the base response ends at"), "{orbit}");
+    let found = verbs.attractor(&AttractorRequest::default()).expect("an end").json();
+    assert_eq!(found["attractor"]["base_response"], false, "{found}");
+}

@@ -289,7 +289,10 @@ fn under_dither(
 
 /// Whether a motion in step with the dither is the base response; `None` where that is not known.
 fn is_base(system: &System, state: &[f64]) -> Option<bool> {
-    let base = base_response(system, BASE_STEPS).ok()?;
+    let base = match base_response(system, BASE_STEPS) {
+        Ok(base) => base,
+        Err(why) => return why.is_absence().then_some(false),
+    };
     let size = state.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let off = base.state.iter().zip(state).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
     Some(off <= SAME * size)

@@ -178,12 +178,6 @@ impl<'s> Motion<'s> {
         }
     }
 
-    /// Place of a contact's own number in the state; `None` if it has none.
-    pub fn own_place(&self, contact: usize) -> Option<usize> {
-        let MotionEngine::General(equations) = &self.engine else { return None };
-        equations.contacts[contact].own.map(|own| own.place)
-    }
-
     /// The state of the structure with the contacts' own numbers at zero, as a study begins: sliders and bristles without load.
     ///
     /// # Panics
