@@ -92,7 +92,7 @@ pub struct BranchThresholds {
     pub thresholds: Vec<Threshold>,
     /// Changes of the events, in the order of the branch.
     pub changes: Vec<SignatureChange>,
-    /// Intervals in which no response was found, in the order of the branch.
+    /// Intervals in which no response was found, up to the first turn of the branch, in its order.
     pub gaps: Vec<ResponseGap>,
     /// The computed responses, in the order of the branch.
     pub branch: Vec<BranchResponse>,
@@ -158,7 +158,8 @@ pub fn branch_thresholds(
         });
     }
     let changes = branch.special_points.iter().filter_map(signature_change).collect();
-    let gaps = branch.special_points.iter();
+    // Beyond a turn the branch passes values at which it was known before.
+    let gaps = branch.special_points.iter().take_while(|point| !point.is_turn());
     let gaps = gaps.filter_map(|point| ResponseGap::of(point.parameter, point.gap)).collect();
     let ending = BranchEnding::of(&branch, from, to);
     let branch = branch.points.iter().map(|point| BranchResponse {

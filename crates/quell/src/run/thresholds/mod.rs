@@ -75,7 +75,8 @@ pub struct Thresholds {
     pub resumes: bool,
     /// The changes of each run.
     pub runs: Vec<(Protocol, RunSwitches)>,
-    /// Whether each run ends quiet without dither at both ends of the window, so that there is nothing to quench.
+    /// Whether each run ends quiet without dither at every value, so that there is nothing to quench: known where the parameter changes
+    /// the dither alone.
     pub quiet_without: Vec<bool>,
     /// Whether a dither acts in the band of the fastest growing vibration at an end of the window, so that a motion in step with it
     /// may vibrate.
@@ -181,9 +182,9 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
         let run =
             VariedRun { start: &start, ramp: request.ramp, at: &at, most_steps: STEPS_OF_A_SEARCH };
         let still = |values: &[f64]| at(values).map(|system| system.undithered());
+        let changes_the_dither = dithered && still(&[from]) == still(&[to]);
         let without = VariedRun { at: &still, ramp: 0.0, ..run };
-        let is_quiet = |value: f64| without.outcome(value).is_quiet() == Some(true);
-        let quiet_without = is_quiet(from) && is_quiet(to);
+        let quiet_without = changes_the_dither && without.outcome(from).is_quiet() == Some(true);
         ((protocol.clone(), side_by_side(&run, request.window)), quiet_without)
     });
     let (runs, quiet_without): (Vec<(Protocol, RunSwitches)>, Vec<bool>) = runs.unzip();
