@@ -15,7 +15,7 @@ use super::rotation::{Rotation, samples_per_orbit_period, samples_per_period};
 use super::settings::AttractorSettings;
 use super::settle::{ONE_STATE, SettleOutcome, Settled, block};
 use super::unsettled::Unsettled;
-use crate::orbit::{Orbit, OrbitVerdict, near};
+use crate::orbit::{Orbit, OrbitVerdict, near, shortened};
 use crate::simulation::{DEFAULT_TOLERANCE, Observer, Segment, Stalled, Start, simulate};
 
 /// Most periods of a closed orbit: the record holds five returns of an orbit of this length. A longer orbit is classified as a
@@ -59,7 +59,8 @@ const MOST_SHOTS: usize = 4;
 const STEADY: f64 = 1e-5;
 
 /// Range of the displacement, relative to F, up to which a mass on a belt at rest is at rest: a dither at the level of static friction moves it
-/// by rounding. With a larger value a dither slightly above that level would be said to move nothing.
+/// by rounding, 10⁻⁶¹ where it was met. With a larger value a dither slightly above that level would be said to move nothing, with a much
+/// smaller one rounding would be a motion.
 const STILL: f64 = 1e-9;
 
 /// Most records of one run: 32 768 periods or more. A motion that needs longer to close or to fill its curve is unclassified: with 8 records
@@ -310,10 +311,7 @@ fn shortest(settings: &AttractorSettings, periods: u32, orbit: Orbit) -> (u32, O
         let off = gap(state(part), state(&orbit));
         off <= ONE_STATE * settings.belt.normal_load() && part.verdict() != OrbitVerdict::Unstable
     };
-    let part = (1..periods).filter(|part| periods.is_multiple_of(*part)).find_map(|part| {
-        Some((part, near(&settings.system, &orbit.state, part).ok().filter(same)?))
-    });
-    part.unwrap_or((periods, orbit))
+    shortened(&settings.system, &orbit, periods, same).unwrap_or((periods, orbit))
 }
 
 fn state(orbit: &Orbit) -> (f64, f64) {

@@ -38,9 +38,9 @@ pub(super) fn samples_per_orbit_period(period: f64) -> usize {
 /// denominator counts as filling its curve; with a much larger limit no motion would fill its curve within a record.
 const DENOMINATORS: u32 = 64;
 
-/// How often a motion on a curve must have crossed every gap. A locked orbit on the curve stops one that creeps before it has crossed the gap
-/// once; its speed, by which crossings are counted, is smaller there than on the way. With 1 a motion that locked after 40 000 periods
-/// counted as a curve; with a larger value curves near locking take longer.
+/// How often a motion must have crossed every gap of its curve. Crossings are counted by the mean speed so far. Where a locked orbit lies in a
+/// gap, a motion that creeps towards it slows down and never crosses, although by its speed before it should have: with 1 a run of figure 2.11
+/// that locks after 20 000 periods counted as a curve. With a larger value curves near locking take longer.
 const CROSSINGS: f64 = 3.0;
 
 /// A locked motion: `turns` revolutions in `periods` periods.

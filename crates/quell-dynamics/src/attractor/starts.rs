@@ -42,9 +42,10 @@ impl<'a> StartJudge<'a> {
     /// The judge of a system, whose motions are observed by a row over the coordinates.
     pub fn new(system: &'a System, row: &'a [f64]) -> Self {
         // Without a common period no section judges: the runs say so.
-        let sections = judged_mass(system)
-            .and_then(|mass| Some((AttractorSettings::new(mass.belt()).ok()?, mass)))
-            .map(|(settings, mass)| (mass, settings));
+        let sections = judged_mass(system).and_then(|mass| {
+            let settings = AttractorSettings::new(mass.belt()).ok()?;
+            Some((mass, settings))
+        });
         Self { system, row, sections }
     }
 

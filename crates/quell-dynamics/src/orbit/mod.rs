@@ -57,7 +57,7 @@ pub use family::{MotionSignature, NoImage, OrbitFamily, SystemAt};
 pub use free::{NoCycle, free_cycle, limit_cycles};
 pub use passing::nearest_distance;
 pub(crate) use periodic::orbit_at;
-pub use periodic::{NoOrbit, Orbit, base_response, is_on_sliding, near, sliding_state};
+pub use periodic::{NoOrbit, Orbit, base_response, is_on_sliding, near, shortened, sliding_state};
 pub use ramp::ramped_motion;
 pub use sensitivity::sensitivity_of_threshold;
 pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};

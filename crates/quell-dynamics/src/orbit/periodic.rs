@@ -249,6 +249,21 @@ pub fn near(system: &System, guess: &[f64], periods: u32) -> Result<Orbit, NoOrb
     orbit_at(&motion, &found.state, period, false)
 }
 
+/// The orbit with the least part of its `periods` common periods after which it repeats itself; `None` if it has no shorter period. `is_same`
+/// decides whether an orbit near its state is it.
+pub fn shortened(
+    system: &System,
+    orbit: &Orbit,
+    periods: u32,
+    is_same: impl Fn(&Orbit) -> bool,
+) -> Option<(u32, Orbit)> {
+    let mut parts = (1..periods).filter(|part| periods.is_multiple_of(*part));
+    parts.find_map(|part| {
+        let shorter = near(system, &orbit.state, part).ok().filter(&is_same)?;
+        Some((part, shorter))
+    })
+}
+
 /// The common period, of a system that has one.
 pub(super) fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoOrbit> {
     if !motion.system().has_waves() {

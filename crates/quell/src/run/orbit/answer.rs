@@ -258,7 +258,7 @@ impl PeriodicResponse {
             slips.fold(slides(contact), f64::max)
         });
         let shorter = self.found.as_ref().and_then(|found| {
-            let part = found.repeats_after.filter(|part| *part < found.multiple)?;
+            let part = found.repeats_after?;
             let periods = found.multiple;
             Some(format!("the motion of {periods} dither periods repeats itself after {part}: its period is shorter than the one given"))
         });

@@ -4,7 +4,8 @@
 use quell_dynamics::attractor::orbit_of_run;
 use quell_dynamics::orbit::{
     BASE_STEPS, CycleSamples, CycleSearch, NamedStart, NoOrbit, Orbit, OrbitVerdict, SettledMotion,
-    TriedStart, base_response, limit_cycles, near, search_cycle, sliding_verdict, usual_starts,
+    TriedStart, base_response, limit_cycles, near, search_cycle, shortened, sliding_verdict,
+    usual_starts,
 };
 use quell_dynamics::simulation::within;
 use quell_linear::growth::Verdict;
@@ -83,7 +84,7 @@ pub struct FoundMotion {
     pub orbit: Orbit,
     /// Common dither periods in its period; 1 without dither.
     pub multiple: u32,
-    /// The least part of them after which it repeats itself; `None` if it has none.
+    /// The least part of a number of periods that was asked for after which it repeats itself; `None` if it has none.
     pub repeats_after: Option<u32>,
     /// How it was found.
     pub by: FoundBy,
@@ -153,21 +154,20 @@ fn with_samples(study: &SystemStudy, orbit: Orbit, multiple: u32, by: FoundBy) -
     } else {
         CycleSamples::of(study.system(), &study.observe(), &orbit)
     };
-    let repeats_after = repeats_after(study.system(), &orbit, multiple);
+    // What a run ends on has its least period already.
+    let is_asked = matches!(by, FoundBy::Continuation | FoundBy::Shooting);
+    let repeats_after = is_asked.then(|| repeats_after(study.system(), &orbit, multiple)).flatten();
     FoundMotion { orbit, multiple, repeats_after, by, samples }
 }
 
 /// The least part of a number of periods after which an orbit of so many repeats itself.
 fn repeats_after(system: &System, orbit: &Orbit, multiple: u32) -> Option<u32> {
-    let largest = |state: &[f64]| state.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let is_same = |part: &u32| {
-        near(system, &orbit.state, *part).is_ok_and(|shorter| {
-            let off: Vec<f64> =
-                shorter.state.iter().zip(&orbit.state).map(|(a, b)| a - b).collect();
-            largest(&off) <= SAME_ORBIT * largest(&orbit.state)
-        })
+    let largest = orbit.state.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let is_same = |shorter: &Orbit| {
+        let pairs = shorter.state.iter().zip(&orbit.state);
+        pairs.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) <= SAME_ORBIT * largest
     };
-    (1..multiple).filter(|part| multiple.is_multiple_of(*part)).find(is_same)
+    shortened(system, orbit, multiple, is_same).map(|(part, _)| part)
 }
 
 /// The motion on which a run ends.
