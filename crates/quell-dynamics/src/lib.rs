@@ -18,4 +18,3 @@ pub mod orbit;
 pub mod response;
 mod sample_times;
 pub mod simulation;
-pub mod start;

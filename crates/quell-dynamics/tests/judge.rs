@@ -10,7 +10,6 @@ use quell_dynamics::orbit::{
 };
 use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined};
 use quell_dynamics::simulation::Start;
-use quell_dynamics::start::InitialState;
 use quell_model::{LawKind, System, Waveform};
 use quell_zoo::belt::{self, over_velocities, stribeck_under, undithered_belt};
 use quell_zoo::dither::sine;
@@ -128,7 +127,7 @@ fn squeal_ends_at_the_hopf_point() {
     for (share, squeals) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
         let at = belt::dissertation(LawKind::Stribeck).at_speed(share * hopf);
         assert_eq!(cycles(&at).expect("no stall").len(), usize::from(squeals), "{share}");
-        assert_eq!(InitialState::Squealing.resolve(&at).is_ok(), squeals, "{share}");
+        assert_eq!(squealing_state(&at.system()).is_ok(), squeals, "{share}");
         let end = free_end(&at, Start::REST).expect("an end");
         assert_eq!(matches!(end, FreeEnd::Cycle(_)), squeals, "{share}");
         assert_eq!(keeps_vibrating(&at, Start::REST), Ok(squeals), "{share}");

@@ -9,8 +9,8 @@ use quell_model::System;
 
 use super::axis::values;
 use super::failure::failed;
+use super::start::start;
 use quell::complaint::Failure;
-use quell::run;
 use quell::study::BeltStudy;
 
 /// Steps in which the base response is followed over the amplitudes.
@@ -40,7 +40,7 @@ impl AmplitudeColumn {
         let settings = AttractorSettings::new(&belt).map_err(|why| failed(name, &why))?;
         let base = settings.base.as_ref().map_err(|why| failed(name, why))?;
         let local = base.verdict;
-        let settled = settle(&settings, run::start(&study)?, Patience::SWEEP);
+        let settled = settle(&settings, start(&study)?, Patience::SWEEP);
         let settled = settled.map_err(|why| failed(name, &why))?;
         let attractor = measure(&settings, &settled).map_err(|why| failed(name, &why))?;
         let quiet = attractor.as_ref().is_some_and(|attractor| attractor.quiet);
@@ -95,7 +95,7 @@ impl AmplitudeColumns {
                 .then_some(AmplitudeThreshold { amplitude: threshold.value, holds_above: is })
         });
         let local = local.collect();
-        let start = run::start(&study)?;
+        let start = start(&study)?;
         let state = move |_: f64, _: &System| Ok(vec![start.displacement, start.velocity]);
         let run = VariedRun { start: &state, ramp: 0.0, at: &at, most_steps: u64::MAX };
         let outcomes: Vec<_> =

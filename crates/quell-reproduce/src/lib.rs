@@ -51,6 +51,7 @@ mod sections;
 mod shared;
 mod source;
 mod stability_map;
+mod start;
 mod waveforms;
 mod write;
 mod written;

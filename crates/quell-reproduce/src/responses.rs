@@ -12,12 +12,12 @@ use super::caption::{law_name, letter, parameters, waveform_name};
 use super::failure::failed;
 use super::product::{DataTable, Product};
 use super::source::EntrySource;
+use super::start::start;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
     Figure, Legend, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
 };
-use quell::run;
 use quell::study::BeltStudy;
 
 /// End of the time axis.
@@ -44,7 +44,7 @@ pub(super) fn cases(source: &EntrySource) -> Result<Vec<ResponseColumn>, Failure
         .into_iter()
         .map(|amplitude| {
             let study = study.with("dither.amplitude", amplitude)?;
-            let start = run::start(&study)?;
+            let start = start(&study)?;
             let plan = ResponsePlan::from(study.solver());
             let response = respond(&study.belt().system(), &start.into(), &plan)
                 .map_err(|error| failed(source.name, &error))?;
@@ -189,7 +189,7 @@ fn history(
         reason = "a count of samples"
     )]
     let count = (UNTIL / step).floor() as usize + 1;
-    let start = run::start(study)?;
+    let start = start(study)?;
     let mut sampler = Sampler::new(0.0, step, count);
     simulate(belt, start, UNTIL + step, study.solver().tolerance, &mut sampler)
         .map_err(|error| failed(source.name, &error))?;

@@ -16,13 +16,13 @@ use super::failure::failed;
 use super::product::{Cell, DataTable, Product};
 use super::responses::columns_of;
 use super::source::{EntrySource, WAVEFORMS};
+use super::start::start;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
     Figure, Layer, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
     SharedLegend, Sharing, Size,
 };
-use quell::run;
 
 /// Length of the time axis in decay times 1/ζ of the free oscillator, and its bounds.
 const DECAY_TIMES: f64 = 2.0;
@@ -253,7 +253,7 @@ fn sampled(
     step: f64,
     count: usize,
 ) -> Result<Vec<Sample>, Failure> {
-    let start = run::start(&case.study)?;
+    let start = start(&case.study)?;
     let mut sampler = Sampler::new(0.0, step, count);
     let until = count as f64 * step;
     simulate(case.study.belt(), start, until, case.study.solver().tolerance, &mut sampler)

@@ -101,7 +101,7 @@ fn the_unit_of_samples_is_that_of_their_file() {
     let folder = folder();
     let system = Study::parse_in(&format!("{SYSTEM}{LAW}"), &[], folder.path()).expect("valid");
     let coefficient = |study: &Study| {
-        let study = study.system().expect("a system");
+        let study = study.system();
         study.system().contacts[0].friction.coefficient(100.0)
     };
     let right = 0.3 + 0.1 * (-1.0f64).exp();

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
-use quell_study::study::{Axis, InitialState};
+use quell_study::study::{Axis, SystemStart};
 use quell_study::{BeltStudy, Change, Complaints, DiscStudy, Fault, Study};
 
 const GOOD: &str = r#"schema = 1
@@ -87,7 +87,7 @@ fn a_good_study_is_read() {
     assert_eq!(study.title(), Some("Stribeck belt"));
     assert_eq!(study.number("dither.frequency_ratio"), Some(10.0));
     assert_eq!(study.number("friction.minimum_coefficient"), Some(0.2857));
-    assert_eq!(study.initial(), InitialState::Rest);
+    assert_eq!(study.kind().system().initial(), &SystemStart::Rest);
     assert_eq!((study.solver().tolerance, study.solver().record_periods), (1e-12, 60));
     assert_eq!(study.solver().settle, 1200.0);
     assert!(study.scales().is_none() && study.sweeps().is_empty());
@@ -581,7 +581,7 @@ fn set_reaches_every_key() {
     assert_eq!(study.belt().friction().kind().name(), "decreasing");
     assert_eq!(study.belt().dithers()[0].waveform.name(), "square");
     assert_eq!(study.belt().dithers()[0].amplitude, 0.9);
-    assert_eq!(study.initial(), InitialState::Sliding);
+    assert_eq!(study.kind().system().initial(), &SystemStart::Sliding);
     assert_eq!((study.solver().tolerance, study.title()), (1e-9, Some("another")));
     let si = BeltStudy::parse(SI, &set(&["dither[0].amplitude_n=100", "belt.normal_force_n=400"]));
     let si = si.unwrap_or_else(|errors| panic!("{errors:?}"));
@@ -589,7 +589,7 @@ fn set_reaches_every_key() {
     assert_eq!(si.belt().dithers()[0].amplitude, 100.0 / 1.0e6);
     // A later state takes the place of an earlier one.
     let study = good(&["belt.initial.state=sliding", "belt.initial.displacement=2"]);
-    assert_eq!(study.initial(), InitialState::Explicit { displacement: 2.0, velocity: 0.0 });
+    assert_eq!(study.kind().system().initial(), &SystemStart::Values(vec![2.0, 0.0]));
 }
 
 #[test]

@@ -55,7 +55,7 @@ phase = 0.5
 
 fn study(text: &str) -> SystemStudy {
     match Study::parse(text, &[]) {
-        Ok(study) => study.system().expect("a system"),
+        Ok(study) => study.system(),
         Err(complaints) => panic!("{complaints}\n{text}"),
     }
 }
@@ -327,7 +327,7 @@ fn every_number_has_a_path() {
 fn changes_and_axes_reach_words_and_units() {
     let set = |text: &str, change: &str| {
         let change = Change::parse(change, "--set").expect("a change");
-        Study::parse(text, &[change]).and_then(|study| study.system().map_err(Into::into))
+        Study::parse(text, &[change]).map(|study| study.system())
     };
     let started = set(TEXT, "system.initial.state=sliding").expect("valid");
     assert_eq!(*started.initial(), SystemStart::Sliding);
@@ -378,7 +378,7 @@ fn other_kinds_refuse_the_tables_of_a_system() {
     let both =
         refused(&format!("{belt}[system]\ncoordinates = ['x']\nmass = [1]\nstiffness = [1]\n"));
     assert_eq!((both[0].key.as_str(), both[0].fault), ("belt", Fault::Conflict));
-    assert!(Study::parse(belt, &[]).expect("a belt").system().is_err());
+    assert!(Study::parse(belt, &[]).expect("a belt").disc().is_err());
 }
 
 /// Terminals obey control characters, and no XML contains them: every text and key of a study is without.

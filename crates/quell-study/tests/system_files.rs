@@ -20,7 +20,7 @@ const COMPONENTS: &str = "[system]\nunits = 'SI'\n[[system.component]]\nname = '
 const ROTOR: &str = "# rotor\nfrequency_hz,damping_ratio,x,y\n10,0.01,0.5,1\n20,0.02,-1,0\n";
 
 fn read(folder: &Path, text: &str) -> Result<SystemStudy, Complaints> {
-    Study::parse_in(text, &[], folder).and_then(|study| study.system().map_err(Into::into))
+    Study::parse_in(text, &[], folder).map(|study| study.system())
 }
 
 fn folder_with(files: &[(&str, &str)]) -> tempfile::TempDir {

@@ -12,7 +12,7 @@ use std::path::Path;
 use quell_model::units::{Quantity, Scales};
 
 use crate::fields::PER_VELOCITY;
-use crate::study::{BeltStudy, Kind, Study, UnitSystem};
+use crate::study::{Kind, Study, UnitSystem};
 
 /// One array with its name and unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,11 +81,6 @@ pub struct Dataset {
 }
 
 impl Dataset {
-    /// An empty dataset of a study.
-    pub fn new(study: &BeltStudy, verb: &'static str) -> Self {
-        Self::of(&Study::from(study), verb)
-    }
-
     /// An empty dataset of a study of any kind.
     pub fn of(study: &Study, verb: &'static str) -> Self {
         Self {
@@ -317,8 +312,8 @@ mod tests {
 
     #[test]
     fn rows_enumerate_the_product_of_the_axes() {
-        let study = BeltStudy::parse(TEXT, &[]).expect("valid");
-        let csv = Dataset::new(&study, "map")
+        let study = Study::parse(TEXT, &[]).expect("valid");
+        let csv = Dataset::of(&study, "map")
             .axis("a", Quantity::Ratio, vec![1.0, 2.0])
             .axis("b", Quantity::Ratio, vec![0.1, 0.2, 0.3])
             .array("c", Quantity::Force, vec![1.0, 2.0, 3.0, 4.0, f64::NAN, 1e-300])
@@ -340,8 +335,8 @@ mod tests {
             .replace("normal_load", "normal_force_n")
             .replace("belt_velocity", "belt_velocity_m_per_s")
             .replace("reference_velocity", "reference_velocity_m_per_s");
-        let study = BeltStudy::parse(&text, &[]).expect("valid");
-        let csv = Dataset::new(&study, "simulate")
+        let study = Study::parse(&text, &[]).expect("valid");
+        let csv = Dataset::of(&study, "simulate")
             .axis("time", Quantity::Time, vec![10.0])
             .array("velocity", Quantity::Velocity, vec![0.5])
             .array("sticking", Quantity::Count, vec![1.0])
@@ -350,7 +345,7 @@ mod tests {
         assert_eq!(rows, ["time,velocity,sticking", "1.0,5.0,1.0"]);
         let units = "# units: time [s], velocity [m/s], sticking [dimensionless]";
         assert!(csv.contains(units), "{csv}");
-        let plane = Dataset::new(&study, "basins")
+        let plane = Dataset::of(&study, "basins")
             .axis("velocity", Quantity::Velocity, vec![0.1, 0.2])
             .axis("displacement", Quantity::Displacement, vec![0.0]);
         assert!(plane.arrays().is_empty() && plane.axes()[0].values == [1.0, 2.0]);

@@ -24,8 +24,8 @@ use crate::run::system::{design, exact, has_equations, measured, modes, reach, t
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::run::thresholds::{ThresholdsRequest, by_eigenvalues};
 use crate::run::{
-    actuator, belt_system, bifurcation, describing, found_attractor, friction, noise_response,
-    orbit, probability, ramp, response, simulate, stability, thresholds, waveforms, window,
+    actuator, bifurcation, describing, found_attractor, friction, noise_response, orbit,
+    probability, ramp, response, simulate, stability, thresholds, waveforms, window,
 };
 use crate::study::{DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy, not_periodic};
 use crate::sweep::Running;
@@ -47,17 +47,6 @@ pub struct Verbs {
 /// The verbs of a study.
 pub fn verbs(study: &Study) -> Verbs {
     Verbs { study: study.clone() }
-}
-
-/// The system whose motion `simulate` computes: that of a belt, that of the modes of a disc, or a system itself.
-///
-/// # Errors
-/// A law whose numbers are out of their bounds in the units of the study.
-pub fn moving_system(study: &Study) -> Result<SystemStudy, Failure> {
-    match study.disc() {
-        Ok(disc) => Ok(motion::at_rest(&disc)),
-        Err(_) => belt_system::system_of(study),
-    }
 }
 
 /// The system whose motions a verb is about: that of a belt, or a system itself.
@@ -82,10 +71,7 @@ impl Verbs {
 
     /// Whether the answer of a verb has a picture.
     pub fn draws(&self, verb: &str) -> bool {
-        let is_measured = || {
-            let system = self.study.system();
-            system.is_ok_and(|study| study.frequency_response().is_some())
-        };
+        let is_measured = || self.study.system().frequency_response().is_some();
         StudyVerb::named(verb).is_none_or(|known| known.draws)
             && !(verb == "stability" && is_measured())
     }
@@ -109,7 +95,7 @@ impl Verbs {
     /// The system that a verb is about.
     fn system(&self, verb: &str) -> Result<SystemStudy, Failure> {
         self.has(verb)?;
-        belt_system::system_of(&self.study)
+        Ok(self.study.system())
     }
 
     /// The disc; `None` of another study.
@@ -123,12 +109,8 @@ impl Verbs {
     /// A law whose numbers are out of their bounds in the units of the study.
     pub fn check(&self) -> Reply {
         match self.study.kind() {
-            Kind::Belt(setup) => {
-                let belt = self.study.narrowed(setup.as_ref());
-                answer(&belt_system::checked(&belt)?, Ok(Valid))
-            }
             Kind::Disc(setup) => answer(&self.study.narrowed(setup.as_ref()), Ok(Valid)),
-            Kind::System(setup) => answer(&self.study.narrowed(setup.as_ref()), Ok(Valid)),
+            Kind::Belt(_) | Kind::System(_) => answer(&self.study.system(), Ok(Valid)),
         }
     }
 
@@ -170,7 +152,7 @@ impl Verbs {
         if let Some(disc) = self.disc() {
             return answer(&disc, disc::stability::run(&disc));
         }
-        let study = belt_system::system_of(&self.study)?;
+        let study = self.study.system();
         match study.frequency_response() {
             Some(response) => answer(&study, measured::run(&study, response)),
             None => answer(&study, stability::run(&study)),
@@ -235,7 +217,7 @@ impl Verbs {
             self.has("response --window")?;
             let study = match self.disc() {
                 Some(disc) => motion::disturbed(&disc)?,
-                None => belt_system::system_of(&self.study)?,
+                None => self.study.system(),
             };
             return answer(&study, window::run(&study, ends));
         }
@@ -337,7 +319,7 @@ impl Verbs {
         if let Some(disc) = self.disc() {
             return answer(&disc, disc::design::run(&disc));
         }
-        let study = belt_system::system_of(&self.study)?;
+        let study = self.study.system();
         answer(&study, design::run(&study))
     }
 
@@ -365,7 +347,7 @@ impl Verbs {
         if let Some(disc) = self.disc() {
             return answer(&disc, probability::run(&disc, request, running));
         }
-        let study = belt_system::system_of(&self.study)?;
+        let study = self.study.system();
         answer(&study, probability::run(&study, request, running))
     }
 
@@ -375,7 +357,7 @@ impl Verbs {
     /// # Errors
     /// A start that does not exist.
     pub fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
-        ObservedMotion::of(&moving_system(&self.study)?, verb)
+        ObservedMotion::of(&self.study.system(), verb)
     }
 
     /// Natural frequencies and shapes.
@@ -387,7 +369,7 @@ impl Verbs {
         if let Some(disc) = self.disc() {
             return answer(&disc, Ok(disc::modes::run(&disc)));
         }
-        let study = belt_system::system_of(&self.study)?;
+        let study = self.study.system();
         answer(&study, modes::run(&study))
     }
 }

@@ -6,7 +6,6 @@ use quell::run::found_attractor::AttractorRequest;
 use quell::run::noise_response;
 use quell::run::response::ResponseRequest;
 use quell::study::{BeltStudy, SystemStudy};
-use quell::verbs::moving_system;
 use quell::verbs::verbs;
 use serde_json::Value as Json;
 
@@ -169,7 +168,7 @@ fn the_share_of_seeds() {
     for (amplitude, quiet) in [(3.0, 1.0), (0.05, 0.0)] {
         let dither = format!("waveform = \"noise\"\nband = [8.0, 12.0]\namplitude = {amplitude:?}");
         let one = noise_response::run(
-            &moving_system(&Study::from(&belt(numbers, &dither, solver))).expect("a system"),
+            &Study::from(&belt(numbers, &dither, solver)).system(),
             ResponseRequest { seeds: Some(3), ..ResponseRequest::default() },
         )
         .expect("runs");

@@ -64,7 +64,7 @@ fn a_place_may_be_the_load_of_a_contact() {
     // A name says the factors.
     let rows = "places = [{ at = { carriage = 2.0 } }, { at = { motor = 1.0, carriage = -0.5 } }]";
     let study = two_masses(&written, &format!("{AMPLITUDE}\n{rows}"));
-    let study = Study::parse(&study, &[]).expect("valid").system().expect("a system");
+    let study = Study::parse(&study, &[]).expect("valid").system();
     let names: Vec<&str> =
         study.design().expect("a design").places.iter().map(|place| place.name.as_str()).collect();
     assert_eq!(names, ["2 carriage", "motor − 0.5 carriage"]);

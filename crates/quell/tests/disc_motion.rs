@@ -7,7 +7,7 @@ use quell::run::response::ResponseRequest;
 use quell::run::simulate::MotionRequest;
 use quell::run::system::start::read_state;
 use quell::study::{DiscStudy, Study};
-use quell::verbs::{moving_system, verbs};
+use quell::verbs::verbs;
 use serde_json::Value as Json;
 
 const PLATE: &str = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n";
@@ -111,7 +111,7 @@ fn a_patch_opens_point_by_point() {
 fn names_start_units_and_files() {
     let disc = study(JUMPING);
     let any = Study::from(&disc);
-    let system = moving_system(&any).expect("it moves");
+    let system = any.system();
     let start = read_state(&system, "A3=0.001,velocity.B3=0.002").err();
     assert!(start.is_some(), "no such coordinate");
     let start = read_state(&system, "A2=0.001,velocity.B2=0.002").expect("coordinates");

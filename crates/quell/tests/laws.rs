@@ -8,7 +8,7 @@ use quell::run::simulate::{MotionRequest, Simulation};
 use quell::run::{basins, bifurcation, map, simulate, thresholds, varied};
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
-use quell::verbs::{moving_system, verbs};
+use quell::verbs::verbs;
 use quell_linear::averaging::{AveragedLaw, Averaging, Effective, FastMotion};
 use serde_json::Value as Json;
 
@@ -238,7 +238,7 @@ fn laws_not_analytic_at_rest_are_only_averaged() {
 
 /// The run of a belt from its start.
 fn simulated(study: &BeltStudy, until: f64) -> Simulation {
-    let system = moving_system(&study.into()).expect("a system");
+    let system = quell::Study::from(study).system();
     simulate::run(&system, &MotionRequest::to(until)).unwrap_or_else(|why| panic!("{why}"))
 }
 

@@ -5,7 +5,7 @@ use quell::run::noise_response::{self, NoiseResponse};
 use quell::run::response::ResponseRequest;
 use quell::run::simulate::{self, MotionRequest};
 use quell::study::{BeltStudy, SystemStudy};
-use quell::verbs::{moving_system, verbs};
+use quell::verbs::verbs;
 use quell_linear::averaging::{Averaging, FastMotion, critical_amplitudes};
 use quell_model::Waveform;
 use serde_json::Value as Json;
@@ -108,7 +108,7 @@ fn system(keys: &str) -> String {
 
 /// The end of a run, time of its last event first.
 fn end(study: &BeltStudy, until: f64) -> [f64; 2] {
-    let system = moving_system(&study.into()).expect("a system");
+    let system = Study::from(study).system();
     let run = simulate::run(&system, &MotionRequest::to(until)).expect("a run");
     [run.end.state[0], run.end.state[1]]
 }
@@ -205,7 +205,7 @@ fn averages_have_answers() {
 }
 
 fn response(text: &str, seeds: usize) -> NoiseResponse {
-    let system = moving_system(&Study::from(&study(text))).expect("a system");
+    let system = Study::from(&study(text)).system();
     let request = ResponseRequest { seeds: Some(seeds), ..ResponseRequest::default() };
     noise_response::run(&system, request).expect("runs")
 }

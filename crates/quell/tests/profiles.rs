@@ -92,7 +92,7 @@ fn the_study_of_a_moment_is_the_steady_one() {
          [contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n",
     );
     assert_eq!(system.varies_by(), Some("contact.drive"));
-    let at = system.at_time(2.0).expect("a moment").system().expect("a system");
+    let at = system.at_time(2.0).expect("a moment").system();
     let velocity = at.system().contacts[0].surface_velocity.mean();
     assert!((velocity - (0.5 + 0.2 * libm::sin(7.0))).abs() < 1e-15);
 }

@@ -2,11 +2,11 @@
 //!
 //! Numbers and sources are in `reference/published.json`; the page on correctness shows the same table.
 
-use quell::BeltStudy;
 use quell::run::orbit::{FoundMotion, Wanted, run as orbit_of};
 use quell::run::simulate::{self, MotionRequest, Simulation};
 use quell::run::thresholds::{ThresholdsRequest, run as thresholds};
-use quell::verbs::{moving_system, system_of};
+use quell::verbs::system_of;
+use quell::{BeltStudy, Study};
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
 use quell_dynamics::orbit::{OrbitVerdict, ThresholdKind, limit_cycles};
 use quell_dynamics::simulation::EventKind;
@@ -54,7 +54,7 @@ fn driven(damping: f64, stiction: f64, amplitude: f64, ratio: f64) -> BeltStudy 
 
 /// The run of a belt from its start.
 fn simulated(study: &BeltStudy, until: f64) -> Simulation {
-    let system = moving_system(&study.into()).expect("a system");
+    let system = Study::from(study).system();
     simulate::run(&system, &MotionRequest::to(until)).unwrap_or_else(|why| panic!("{why}"))
 }
 
@@ -178,7 +178,7 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
     // Cycles at this velocity: the squeal and the smaller unstable cycle, or none.
     let count = |velocity: f64| {
         let belt = study.with(key, velocity).expect("valid");
-        limit_cycles(&belt.system().expect("in SI")).expect("one mass").len()
+        limit_cycles(Study::from(&belt).system().system()).expect("one mass").len()
     };
     let exact = number(&case, "exact", "end_of_bistability");
     assert_eq!((count(exact - 1e-6), count(exact + 1e-6)), (2, 0));

@@ -145,7 +145,7 @@ fn runs_and_shooting_find_the_same_orbit() {
     let text = case.expect("a stable orbit")["study"].as_str().expect("a study");
     let rest = orbit(text, &Wanted::After(Protocol::Rest));
     assert_eq!(rest["response"], "reached");
-    let Ok(system) = study(text).system() else { panic!("a system") };
+    let system = study(text).system();
     let names = list(&rest["state_names"]).iter().zip(list(&rest["state"]));
     let state: Vec<String> = names
         .map(|(name, value)| {
@@ -256,7 +256,7 @@ fn sweeps_change_at_the_threshold() {
 
 fn basins(text: &str, plane: &str, grid: (usize, usize)) -> Json {
     let study = study(text);
-    let Ok(system) = study.system() else { panic!("a system") };
+    let system = study.system();
     let axes = read_plane(&system, plane).unwrap_or_else(|why| panic!("{why}"));
     let stop = AtomicBool::new(false);
     let running = Running { threads: Some(2), stop: &stop, progress: &() };

@@ -209,7 +209,7 @@ fn exact_exponents_have_the_right_limits() {
     let weak = exact(DISC, 1e-7);
     close("weak dither", &weak["growth_rate"], &linear["growth_rate"], 1e-12);
     let strong = exact(DISC, 0.5);
-    let study = study(DISC).system().expect("a system");
+    let study = study(DISC).system();
     let linear = quell_linear::linearised::Linearised::new(study.system()).expect("slides");
     let mut split = study.system().clone();
     // The same modulation as a factor on the friction force, which here does not depend on the load otherwise.

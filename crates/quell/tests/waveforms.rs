@@ -10,7 +10,7 @@ use quell::run::waveforms::WaveformComparison;
 use quell::run::{simulate, waveforms};
 use quell::study::{BeltStudy, SystemStudy};
 use quell::sweep::{MapQuantity, Plan};
-use quell::verbs::{moving_system, system_of, verbs};
+use quell::verbs::{system_of, verbs};
 use quell::{Failure, Study};
 use quell_dynamics::orbit::branch_thresholds;
 use quell_linear::averaging::{Averaging, Becomes, CrossingKind, critical_amplitudes};
@@ -36,7 +36,7 @@ fn study(text: &str) -> BeltStudy {
 
 /// The run of a belt from its start.
 fn simulated(study: &BeltStudy, until: f64) -> Simulation {
-    let system = moving_system(&study.into()).expect("a system");
+    let system = Study::from(study).system();
     simulate::run(&system, &MotionRequest::to(until)).unwrap_or_else(|why| panic!("{why}"))
 }
 

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
+use quell::Failure;
 use quell::outcome::ComparedStudy;
 use quell::record::RecordRequest;
 use quell::run::compare::{self, CompareRequest};
-use quell::run::system::start::duration as duration_of_motion;
-use quell::{Failure, Study, quantity};
+use quell::run::system::start::duration;
 
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
@@ -74,14 +74,6 @@ impl RecordArguments {
     }
 }
 
-/// A time of the study, in the units of its equations.
-pub(crate) fn time_of(study: &Study, text: &str, option: &'static str) -> Result<f64, Failure> {
-    Ok(match study.system() {
-        Ok(system) => duration_of_motion(&system, text, option)?,
-        Err(_) => quantity::duration(text, study.scales(), option)?,
-    })
-}
-
 /// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
@@ -92,7 +84,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let outputs = complaints.take(arguments.output.prepare(arguments.parts(), &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let settle = match (&study, &arguments.settle) {
-        (Some(study), Some(text)) => complaints.take(time_of(study, text, "--settle").map(Some)),
+        (Some(study), Some(text)) => {
+            complaints.take(duration(&study.system(), text, "--settle").map(Some))
+        }
         _ => Some(None),
     };
     let ((study, (record, settle)), (outputs, plot)) =

@@ -7,9 +7,10 @@ use quell::measurement::inputs;
 use quell::run::decay::{self, DecayRequest};
 use quell::run::fit::{self, FitRequest};
 use quell::run::record_fit::{self, RecordFitRequest};
+use quell::run::system::start::duration;
 use quell::{Change, Complaint, Failure, Fault, Origin, Study};
 
-use super::compare::{RecordArguments, time_of};
+use super::compare::RecordArguments;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, answer};
 use crate::interrupt;
@@ -120,7 +121,9 @@ fn of_record(arguments: &Arguments, path: &std::path::Path) -> Result<Answer, Fa
     let inputs = crate::arguments::inputs(study.as_ref()).with_files([arguments.data.as_path()]);
     let record = complaints.take(arguments.record.request());
     let settle = match (&study, &arguments.settle) {
-        (Some(study), Some(text)) => complaints.take(time_of(study, text, "--settle").map(Some)),
+        (Some(study), Some(text)) => {
+            complaints.take(duration(&study.system(), text, "--settle").map(Some))
+        }
         _ => Some(None),
     };
     let lawless = complaints.take(match arguments.law.first() {

@@ -2,7 +2,6 @@
 
 use clap::{Args, ValueHint};
 use quell::{Complaint, Study, quantity};
-use quell_model::units::Scales;
 
 use crate::arguments::Gathered;
 
@@ -31,21 +30,6 @@ impl VariedArguments {
         let to = complaints.take(number("--to", &self.to, &self.parameter, study));
         from.zip(to)
     }
-}
-
-/// Scales with which quantities of a study are parsed. For a study that could not be read, it is unknown whether it is in SI,
-/// and so units are accepted.
-pub(super) fn scales(study: Option<&Study>) -> Option<Scales> {
-    study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales)
-}
-
-/// A duration: τ, or a time with its unit in a study in SI.
-pub(super) fn duration(
-    option: &'static str,
-    text: &str,
-    study: Option<&Study>,
-) -> Result<f64, Box<Complaint>> {
-    quantity::duration(text, scales(study), option)
 }
 
 /// A finite number in the unit of the varied key, or with a unit of its own.

@@ -2,8 +2,8 @@
 
 use clap::{Args, ValueHint};
 use quell::run::response::{ResponseRequest, ResponseTexts};
-use quell::verbs::{moving_system, verbs};
-use quell::{Complaint, Failure};
+use quell::verbs::verbs;
+use quell::{Complaint, Failure, Study};
 
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let outputs = complaints.take(arguments.output.prepare(&["spectrum"], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let window = complaints.take(arguments.window());
-    let moving = complaints.take(study.as_ref().map(moving_system).transpose()).flatten();
+    let moving = study.as_ref().map(Study::system);
     let texts = ResponseTexts {
         settle: arguments.settle.as_deref(),
         record: arguments.record.as_deref(),

@@ -7,10 +7,9 @@ use quell::run::simulate::MotionRequest;
 use quell::run::system::start::{duration as duration_of_motion, read_state};
 use quell::sound::SoundOptions;
 use quell::study::{SystemStudy, UnitSystem};
-use quell::verbs::{moving_system, verbs};
-use quell::{Complaint, Failure, Fault, Origin};
+use quell::verbs::verbs;
+use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 
-use super::numbers::duration;
 use crate::answer::Answer;
 use crate::arguments::{
     Gathered, Outputs, Plot, PlotArguments, StudyArguments, WAV, answer, inputs,
@@ -99,8 +98,11 @@ impl Arguments {
 
     /// What can be examined without a study: the duration.
     fn examined(&self) -> Result<MotionRequest, Failure> {
-        let until =
-            self.until.as_deref().map(|text| duration("--until", text, None)).transpose()?;
+        let until = self
+            .until
+            .as_deref()
+            .map(|text| quantity::duration_of_system(text, UnitSystem::Si, "--until"))
+            .transpose()?;
         Ok(MotionRequest { until, ..MotionRequest::default() })
     }
 }
@@ -113,7 +115,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let save = arguments.save.as_deref();
     let extension = save.and_then(|path| path.extension()?.to_str());
     let is_sound = extension.is_some_and(|extension| extension.eq_ignore_ascii_case(WAV));
-    let moving = complaints.take(study.as_ref().map(moving_system).transpose()).flatten();
+    let moving = study.as_ref().map(Study::system);
     let units = moving.as_ref().map_or(UnitSystem::None, SystemStudy::units);
     let sound = complaints.take(arguments.sound.read(is_sound, units));
     let parts: &[&str] = if arguments.events && !is_sound { &["events"] } else { &[] };

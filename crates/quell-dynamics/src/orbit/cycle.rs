@@ -251,30 +251,6 @@ pub fn cycles(belt: &Belt) -> Result<Vec<Orbit>, CycleMapError> {
     found.collect()
 }
 
-/// A state on the largest stable limit cycle without dither: its release if it sticks, otherwise its lowest displacement. `None`
-/// if no stable cycle exists.
-///
-/// # Errors
-/// [`CycleMapError::Stalled`].
-pub fn squeal(belt: &Belt) -> Result<Option<Start>, CycleMapError> {
-    let belt = &belt.undithered();
-    if belt.belt_velocity() == 0.0 {
-        return Ok(None);
-    }
-    let map = CycleMap { belt, sliding: belt.steady_sliding() };
-    let Some(largest) = map.largest()? else { return Ok(None) };
-    if map.sticks(largest)? {
-        return Ok(Some(released(belt)));
-    }
-    // The revolution after a release shrinks: the next smaller cycle attracts it.
-    for size in map.fixed_sizes(largest)? {
-        if map.cycle(size)?.is_some_and(|cycle| cycle.verdict() != OrbitVerdict::Unstable) {
-            return Ok(Some(map.lowest(size)));
-        }
-    }
-    Ok(None)
-}
-
 /// The limit set of an undithered run from a state.
 ///
 /// Trajectories do not cross: a run whose revolutions grow converges to the next larger cycle, one whose revolutions shrink to

@@ -46,7 +46,7 @@ mod verdict;
 mod watch;
 
 pub use curves::{ThresholdPlane, threshold_curves};
-pub use cycle::{CycleMapError, FreeEnd, cycles, free_end, keeps_vibrating, squeal};
+pub use cycle::{CycleMapError, FreeEnd, cycles, free_end, keeps_vibrating};
 pub(crate) use cycle::{cycle_reached, verdict_of_sliding};
 pub use cycle_samples::{CycleSamples, SampledContact};
 pub use cycle_search::{

@@ -6,8 +6,8 @@ use pyo3::prelude::*;
 use quell::outcome::ComparedStudy;
 use quell::record::RecordRequest;
 use quell::run::compare::{self, CompareRequest};
-use quell::run::system::start::duration as duration_of_motion;
-use quell::{Failure, Study, quantity};
+use quell::run::system::start::duration;
+use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
 
@@ -28,14 +28,6 @@ impl RecordTexts {
     }
 }
 
-/// A time of the study, in the units of its equations.
-pub(crate) fn time_of(study: &Study, text: &str, option: &'static str) -> Result<f64, Failure> {
-    Ok(match study.system() {
-        Ok(system) => duration_of_motion(&system, text, option)?,
-        Err(_) => quantity::duration(text, study.scales(), option)?,
-    })
-}
-
 /// Runs the verb.
 pub(crate) fn run(
     study: &Study,
@@ -44,7 +36,7 @@ pub(crate) fn run(
     record: &RecordTexts,
 ) -> Result<NativeAnswer, Failure> {
     let record = record.request()?;
-    let settle = settle.map(|text| time_of(study, text, "settle")).transpose()?;
+    let settle = settle.map(|text| duration(&study.system(), text, "settle")).transpose()?;
     let request = CompareRequest { measured, after, record, settle };
     let done = compare::run(study, &request)?;
     Ok(NativeAnswer::new(Box::new(ComparedStudy { study: study.clone(), done })))

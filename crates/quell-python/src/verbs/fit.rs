@@ -8,9 +8,10 @@ use quell::record::RecordRequest;
 use quell::run::decay::DecayRequest;
 use quell::run::fit::FitRequest;
 use quell::run::record_fit::RecordFitRequest;
+use quell::run::system::start::duration;
 use quell::{Failure, Study};
 
-use super::compare::{RecordTexts, time_of};
+use super::compare::RecordTexts;
 use super::map::{Counter, Watched};
 use crate::answer::NativeAnswer;
 use crate::call;
@@ -57,7 +58,7 @@ pub(crate) fn record(
     let watched = Watched::new(&counter, None);
     let work = move || -> Result<NativeAnswer, Failure> {
         let record: RecordRequest = record.request()?;
-        let settle = settle.map(|text| time_of(&study, &text, "settle")).transpose()?;
+        let settle = settle.map(|text| duration(&study.system(), &text, "settle")).transpose()?;
         let request = RecordFitRequest { record, free, fix, settle };
         let stop = counter.running(None).stop;
         let done = quell::run::record_fit::run(&study, &data, &request, stop)?;

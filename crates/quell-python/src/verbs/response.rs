@@ -1,7 +1,7 @@
 //! `response`: the steady response, the effect of the dither on it, and the cost of the dither.
 
 use quell::run::response::{ResponseRequest, ResponseTexts};
-use quell::verbs::{moving_system, verbs};
+use quell::verbs::verbs;
 use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
@@ -12,6 +12,6 @@ pub(crate) fn run(
     texts: ResponseTexts<'_>,
     seeds: Option<usize>,
 ) -> Result<NativeAnswer, Failure> {
-    let request = texts.read(&moving_system(study)?)?;
+    let request = texts.read(&study.system())?;
     Ok(NativeAnswer::new(verbs(study).response(&ResponseRequest { seeds, ..request })?))
 }

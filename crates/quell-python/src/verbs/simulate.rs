@@ -4,7 +4,7 @@ use quell::run::simulate::{MotionRequest, MotionStart};
 use quell::run::system::start;
 use quell::sound::SoundOptions;
 use quell::study::{SystemStudy, UnitSystem};
-use quell::verbs::{moving_system, verbs};
+use quell::verbs::verbs;
 use quell::{Complaint, Failure, Study};
 
 use crate::answer::NativeAnswer;
@@ -49,7 +49,7 @@ pub(crate) struct GivenRun {
 
 /// Runs the verb.
 pub(crate) fn run(study: &Study, asked: &GivenRun) -> Result<NativeAnswer, Failure> {
-    let request = request_of(&moving_system(study)?, asked)?;
+    let request = request_of(&study.system(), asked)?;
     Ok(NativeAnswer::new(verbs(study).simulate(&request)?))
 }
 

@@ -61,6 +61,19 @@ impl SizedAmplitude {
             Self::Driven(_) => 0.0,
         }
     }
+
+    /// Whether an actuator determines it.
+    pub(super) fn is_driven(&self) -> bool {
+        matches!(self, Self::Driven(_))
+    }
+
+    /// The same in other units, of which one number of the equations has `one`.
+    pub(super) fn times(self, one: f64) -> Self {
+        match self {
+            Self::Known(amplitude, given) => Self::Known(one * amplitude, given),
+            driven @ Self::Driven(_) => driven,
+        }
+    }
 }
 
 /// Reads the amplitude of a dither by any of its keys, in a study with or without a table `[actuator]`; the waveform converts a root mean

@@ -1,6 +1,6 @@
 //! The kinds of study, listed and matched here alone.
 
-use quell_input::complaint::{Complaint, Complaints, Origin};
+use quell_input::complaint::{Complaint, Origin};
 use quell_input::document::Table;
 use quell_model::System;
 use quell_model::units::{Scales, UnitSystem};
@@ -30,14 +30,21 @@ pub enum Kind {
 
 impl Kind {
     /// Reads the system of a document and nothing else; `None` if something is wrong, which has then been reported.
-    pub(super) fn assemble(
-        reader: &mut Reader,
-        document: &Table,
-    ) -> Option<Result<System, Complaints>> {
+    pub(super) fn assemble(reader: &mut Reader, document: &Table) -> Option<System> {
         match DocumentKind::of(document) {
-            DocumentKind::System => system::assemble(reader, document).map(Ok),
-            _ => Self::read(reader, document).map(|kind| kind.template().system()),
+            DocumentKind::Belt => {
+                BeltSetup::assembled(reader, document).map(|setup| setup.system().system().clone())
+            }
+            DocumentKind::Disc => {
+                Self::described(reader, document).map(|setup| setup.system().clone())
+            }
+            DocumentKind::System => system::assemble(reader, document),
         }
+    }
+
+    /// Reads the system of a document with what its runs need; `None` if something is wrong, which has then been reported.
+    pub(super) fn described(reader: &mut Reader, document: &Table) -> Option<SystemSetup> {
+        Self::read(reader, document).map(|kind| kind.template().system(document))
     }
 
     /// What the equations are made from.
@@ -47,11 +54,6 @@ impl Kind {
             Self::Disc(setup) => setup.as_ref(),
             Self::System(setup) => setup.as_ref(),
         }
-    }
-
-    /// Whether the study gives the tables of a system, as opposed to a belt or a disc that is answered as one.
-    pub(super) fn is_system(&self) -> bool {
-        matches!(self, Self::System(_))
     }
 
     /// Name of the kind.
@@ -101,15 +103,9 @@ impl Study {
         }
     }
 
-    /// The study of a system.
-    ///
-    /// # Errors
-    /// An error if it is of another kind.
-    pub fn system(&self) -> Result<SystemStudy, Box<Complaint>> {
-        match self.kind() {
-            Kind::System(setup) => Ok(self.narrowed(setup.as_ref())),
-            _ => Err(self.not_a(SystemSetup::NAME)),
-        }
+    /// The system that the study describes, in the units of its answers: a belt as one mass with its contact, a disc as its modes.
+    pub fn system(&self) -> SystemStudy {
+        self.map_kind(self.kind().template().system(&self.source.document))
     }
 
     /// The study as one of the kind of `setup`, which is its own setup as [`StudyOf::kind`] gives it.
@@ -125,7 +121,7 @@ impl Study {
     /// The units of the numbers of a study and of its answers, those of a belt with its mass and of a system.
     pub fn units(&self) -> UnitSystem {
         match self.kind() {
-            Kind::Belt(setup) => setup.units(),
+            Kind::Belt(setup) => setup.system().units(),
             Kind::Disc(_) => self.file_units(),
             Kind::System(setup) => setup.units(),
         }

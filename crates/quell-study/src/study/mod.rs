@@ -59,15 +59,13 @@ pub use kind::{Kind, Study};
 pub use model::{Model, ParameterId};
 pub use path::{Address, key_at, with_unit};
 pub use quell_dynamics::response::Solver;
-pub use quell_dynamics::start::InitialState;
 pub use quell_input::files::Files;
 pub use quell_model::units::UnitSystem;
 pub use steady::{not_periodic, varies_in_time};
 pub use study_kind::{StudyKind, not_available};
 pub use sweep::{Axis, Sweep};
 pub use system::{
-    DescribedSystem, FrequencyResponse, RecordSettings, ScaledTime, SystemSetup, SystemStart,
-    SystemStudy,
+    FrequencyResponse, RecordSettings, ScaledTime, SystemSetup, SystemStart, SystemStudy,
 };
 pub use uncertainty::Uncertainty;
 

@@ -84,18 +84,14 @@ impl<K: StudyKind> StudyOf<K> {
 }
 
 impl SystemStudy {
-    /// The system of other values of its numbers, with the row that is observed and the start that the study gives for them; a belt or a
-    /// disc that is answered as a system is observed and begins as it was described.
+    /// The system of other values of its numbers, with the row that is observed and the start that the study gives for them.
     ///
     /// # Errors
     /// All complaints about the changed study.
     pub fn varied(&self, numbers: &[(ParameterId, f64)]) -> Result<Self, Complaints> {
-        let setup = if self.source.declared.is_system() {
-            self.setup_at(numbers)?
-        } else {
-            self.kind().with_system(self.model().at(numbers)?)
-        };
-        Ok(self.map_kind(setup))
+        let model = self.model();
+        let document = model.document_at(numbers);
+        Ok(self.map_kind(model.read(Kind::reader, &document, Kind::described)?))
     }
 }
 
@@ -133,7 +129,7 @@ impl Model {
     /// All complaints about the changed study.
     pub fn at(&self, numbers: &[(ParameterId, f64)]) -> Result<System, Complaints> {
         let document = self.document_at(numbers);
-        self.read(Kind::reader, &document, Kind::assemble)?
+        self.read(Kind::reader, &document, Kind::assemble)
     }
 
     /// The document with words in place of numbers that are varied.

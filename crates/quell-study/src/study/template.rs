@@ -2,8 +2,9 @@
 
 use quell_input::complaint::Complaints;
 use quell_input::document::Table;
-use quell_model::System;
 use quell_model::parameter::Parameter;
+
+use super::system::SystemSetup;
 
 /// What a study of one kind declares: names, units and an assembly of the system that they describe. A kind implements it where its tables
 /// are read; what is above does not know which kind it has.
@@ -11,11 +12,8 @@ pub(super) trait Template {
     /// Name of the kind.
     fn name(&self) -> &'static str;
 
-    /// The system, in the units of the study.
-    ///
-    /// # Errors
-    /// A complaint about a law whose numbers are out of their bounds in these units.
-    fn system(&self) -> Result<System, Complaints>;
+    /// The system that the study of a document describes, with what its runs need.
+    fn system(&self, document: &Table) -> SystemSetup;
 
     /// The number at a path of the document, in the unit of its key; `None` where the study has no such number.
     fn number(&self, document: &Table, path: &str) -> Option<f64>;

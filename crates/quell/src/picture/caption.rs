@@ -2,83 +2,13 @@
 
 use std::borrow::Cow;
 
+use quell_model::Waveform;
 use quell_model::disc::DiscDither;
-use quell_model::parameter::{Parameter, TANGENTIAL_STIFFNESS};
-use quell_model::units::Quantity;
-use quell_model::{Direction, Waveform};
 
-use super::ruler::{short, words};
-use crate::noise::{band_in_words, lines_in_words};
+use super::ruler::short;
 use crate::study::disc::ModeSource;
-use crate::study::{BeltStudy, DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy};
-use crate::words::{plural, start_in_words};
-
-/// The study in one line.
-pub(super) fn caption(study: &BeltStudy) -> String {
-    let belt = study.belt();
-    let law = belt.friction().kind();
-    let mut parts = vec![
-        format!("{} law", capitalised(law.name())),
-        format!("$ζ$ = {}", short(belt.damping_ratio())),
-    ];
-    let load = if study.scales().is_some() { "N_0" } else { "F" };
-    let velocity = if study.scales().is_some() { "V_0" } else { "v_0" };
-    let over_time = "varies in time";
-    parts.push(match belt.load() {
-        Some(_) => format!("${load}$ {over_time}"),
-        None => format!("${load}$ = {}", words(study, Quantity::Force, belt.normal_load())),
-    });
-    parts.push(match belt.drive() {
-        Some(_) => format!("${velocity}$ {over_time}"),
-        None => {
-            format!("${velocity}$ = {}", words(study, Quantity::Velocity, belt.belt_velocity()))
-        }
-    });
-    for (parameter, value) in law.parameters().iter().zip(belt.friction().values()) {
-        parts.push(format!("${}$ = {}", parameter.symbol, words(study, parameter.quantity, value)));
-    }
-    if let Some(stiffness) = belt.tangential_stiffness() {
-        let Parameter { symbol, quantity, .. } = TANGENTIAL_STIFFNESS;
-        parts.push(format!("${symbol}$ = {}", words(study, quantity, stiffness)));
-    }
-    for dither in belt.dithers() {
-        let letter = match dither.direction {
-            Direction::Tangential => "T",
-            Direction::Normal => "N",
-        };
-        let (force, rate) = match study.scales() {
-            Some(_) => (format!("A_{letter}"), format!("f_{letter}")),
-            None => (format!("D_{letter}"), format!("R_{letter}")),
-        };
-        let phase = match dither.phase {
-            0.0 => String::new(),
-            phase => format!(", $φ$ = {phase}"),
-        };
-        parts.push(format!(
-            "{} {} dither, ${force}$ = {}, ${rate}$ = {}{phase}",
-            dither.direction.name(),
-            dither.waveform.name(),
-            words(study, Quantity::Force, dither.amplitude),
-            match dither.waveform.noise() {
-                Some(noise) => {
-                    let in_words = |quantity, value| words(study, quantity, value);
-                    let band = band_in_words(noise, dither.frequency_ratio, in_words);
-                    format!("{band} ({})", lines_in_words(noise))
-                }
-                None => words(study, Quantity::FrequencyRatio, dither.frequency_ratio),
-            },
-        ));
-        if dither.envelope.is_some() {
-            parts.push(format!("its amplitude {over_time}"));
-        }
-    }
-    parts.join(", ")
-}
-
-/// The study and its initial state in one line.
-pub(super) fn caption_of_run(study: &BeltStudy) -> String {
-    format!("{}; {}.", caption(study), start_in_words(study))
-}
+use crate::study::{DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy};
+use crate::words::plural;
 
 /// A disc study in one line.
 pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
@@ -193,11 +123,6 @@ fn where_equal(text: &str, one: &str, other: &str) -> String {
     shown.join(SEPARATOR)
 }
 
-fn capitalised(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
 /// The caption of a study of a system.
 pub(super) fn caption_of_system(study: &SystemStudy) -> String {
     let size = study.system().structure.size();
@@ -208,10 +133,9 @@ pub(super) fn caption_of_system(study: &SystemStudy) -> String {
 
 /// The caption of a study of any kind.
 pub(super) fn caption_of(study: &Study) -> String {
-    match study.kind() {
-        Kind::Belt(setup) => caption_of_run(&study.narrowed(setup.as_ref())),
-        Kind::Disc(setup) => caption_of_disc(&study.narrowed(setup.as_ref())),
-        Kind::System(setup) => caption_of_system(&study.narrowed(setup.as_ref())),
+    match study.disc() {
+        Ok(disc) => caption_of_disc(&disc),
+        Err(_) => caption_of_system(&study.system()),
     }
 }
 

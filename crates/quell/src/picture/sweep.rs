@@ -16,7 +16,6 @@ use crate::plot::{
     Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotRole, Points,
     Polyline, Size, Spread,
 };
-use crate::run::belt_system::system_of;
 use crate::run::map::{FinishedMap, amplitude_and_other, boundaries_at};
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::study::{DiscStudy, Study};
@@ -205,8 +204,7 @@ fn exact_curves(done: &FinishedMap) -> Vec<Layer> {
 
 /// Curves of thresholds in the plane of a map, in the units of its axes; none where the study has none.
 fn threshold_curves(grid: &Grid, request: &CurvesRequest) -> Vec<Vec<(f64, f64)>> {
-    let Ok(system) = system_of(grid.study()) else { return Vec::new() };
-    let Ok(found) = curves::run(&system, request) else { return Vec::new() };
+    let Ok(found) = curves::run(&grid.study().system(), request) else { return Vec::new() };
     let curves = found.found.curves.iter();
     curves
         .map(|curve| curve.points.iter().map(|point| (point.along, point.value)).collect())

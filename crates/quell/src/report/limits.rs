@@ -4,7 +4,6 @@ use quell_model::units::Quantity;
 
 use super::parts::{ReportedAnswer, Unexamined};
 use super::plan::amplitude_of;
-use crate::run::belt_system::system_of;
 use crate::run::system::{frequency_in_words, in_units};
 use crate::study::disc::ModeSource;
 use crate::study::{DiscStudy, Study, SystemStudy};
@@ -17,9 +16,7 @@ const MOST_NAMES: usize = 12;
 pub(super) fn of(study: &Study, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
     let mut all = match study.disc() {
         Ok(disc) => of_disc(&disc),
-        Err(_) => {
-            system_of(study).map_or_else(|_| Vec::new(), |system| of_system(&system, answers))
-        }
+        Err(_) => of_system(&study.system(), answers),
     };
     all.extend(windows(answers));
     all.extend(amplitudes_of_zero(study));
@@ -156,7 +153,7 @@ fn windows(answers: &[ReportedAnswer]) -> Vec<Unexamined> {
 
 /// Dithers of amplitude 0, which have no window of thresholds.
 fn amplitudes_of_zero(study: &Study) -> Vec<Unexamined> {
-    let Ok(system) = system_of(study) else { return Vec::new() };
+    let system = study.system();
     let amplitudes: Vec<f64> = system.system().inputs.iter().map(amplitude_of).collect();
     let zero = amplitudes.iter().filter(|amplitude| **amplitude == 0.0).count();
     if zero == 0 {

@@ -6,7 +6,6 @@ use quell_model::System;
 use quell_model::parameter::indexed;
 use quell_model::system::{Input, InputTarget};
 
-use crate::run::belt_system::system_of;
 use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
@@ -59,7 +58,7 @@ const BRANCH: &str = "the base response, continued from steady sliding";
 pub(super) fn planned(study: &Study) -> Vec<ReportStep> {
     match study.disc() {
         Ok(disc) => of_disc(&disc),
-        Err(_) => system_of(study).map_or_else(|_| Vec::new(), |system| of_system(study, &system)),
+        Err(_) => of_system(study, &study.system()),
     }
 }
 
@@ -67,7 +66,7 @@ pub(super) fn planned(study: &Study) -> Vec<ReportStep> {
 pub(super) fn is_dithered(study: &Study) -> bool {
     match study.disc() {
         Ok(disc) => disc.disc().dither().frequency_ratio().is_some(),
-        Err(_) => system_of(study).is_ok_and(|system| system.system().is_dithered()),
+        Err(_) => study.system().system().is_dithered(),
     }
 }
 

@@ -5,7 +5,6 @@
 
 pub mod actuator;
 pub mod basins;
-pub(crate) mod belt_system;
 pub mod bifurcation;
 pub mod check;
 pub mod compare;
@@ -43,56 +42,7 @@ pub mod varied;
 pub mod waveforms;
 pub mod window;
 
-use quell_dynamics::simulation::{Start, within};
-use quell_dynamics::start::NoSquealingStart;
-
-use quell_model::InvalidValues;
-
-use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::effort::STEPS_OF_A_SEARCH;
-use crate::study::{BeltStudy, InitialState};
-
-/// The initial state of a study, in numbers.
-///
-/// # Errors
-/// A complaint if a squealing start is requested but no limit cycle exists.
-pub fn start(study: &BeltStudy) -> Result<Start, Failure> {
-    resolved(study, study.initial(), |why| {
-        let allowed = format!("another state: {why}");
-        Complaint::new(Fault::Value, "belt.initial.state", Origin::Whole, "squealing", allowed)
-    })
-}
-
-/// The numbers of an initial state; `refused` makes the complaint if it is a limit cycle that does not exist.
-fn resolved(
-    study: &BeltStudy,
-    initial: InitialState,
-    refused: impl FnOnce(NoSquealingStart) -> Complaint,
-) -> Result<Start, Failure> {
-    // Steady sliding and squeal at the beginning are those of the drive and load there.
-    let name = match initial {
-        InitialState::Sliding => Some("sliding"),
-        InitialState::Squealing => Some("squealing"),
-        InitialState::Rest | InitialState::Explicit { .. } => None,
-    };
-    let first = match name {
-        Some(name) => study.belt().steady_at(0.0).map_err(|why| of_beginning(name, &why))?,
-        None => study.belt().clone(),
-    };
-    let found = within(STEPS_OF_A_SEARCH, || initial.resolve(&first));
-    found.map_err(|why| match why {
-        NoSquealingStart::Stalled(stalled) => failed(stalled),
-        NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => refused(why).into(),
-    })
-}
-
-/// The complaint about a named start for which a belt is not ready at τ = 0.
-fn of_beginning(name: &str, invalid: &InvalidValues) -> Complaint {
-    let allowed = format!(
-        "rest or given numbers: the belt at the start of the run has no steady sliding, because {invalid}"
-    );
-    Complaint::new(Fault::Value, "belt.initial.state", Origin::Whole, name, allowed)
-}
+use crate::complaint::Failure;
 
 /// The failure of an interrupted verb.
 fn stopped(verb: &str) -> Failure {

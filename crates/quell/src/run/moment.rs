@@ -2,19 +2,14 @@
 
 use super::system::start::duration;
 use crate::complaint::{Complaint, Failure};
-use crate::quantity;
 use crate::study::Study;
 
-/// Reads a time of a study of any kind into the numbers of its equations.
+/// Reads a time of a study into the units of its system.
 ///
 /// # Errors
 /// A complaint about `option`.
 pub fn moment(study: &Study, text: &str, option: &'static str) -> Result<f64, Failure> {
-    Ok(match (study.system(), study.disc()) {
-        (Ok(system), _) => duration(&system, text, option)?,
-        (_, Ok(disc)) => quantity::time_of_disc(text, &disc, option)?,
-        _ => quantity::duration(text, study.scales(), option)?,
-    })
+    Ok(duration(&study.system(), text, option)?)
 }
 
 /// The steady study of the moment that `--at-time` names.

@@ -12,7 +12,6 @@ use super::grid::Grid;
 use super::status::Status;
 use crate::cite::Task;
 use crate::outcome::disc_units::DiscUnits;
-use crate::run::belt_system::system_of;
 use crate::study::{DiscStudy, Study, SystemStudy};
 
 /// What is computed at a point: the motion of a disc, or that of a system, which a belt is as well.
@@ -94,7 +93,7 @@ impl Point<'_> {
     pub(super) fn study(&self) -> Result<&SystemStudy, Status> {
         let read = || {
             let study = self.grid.study_at(self.index).map_err(|_| Status::InvalidStudy)?;
-            system_of(&study).map_err(|_| Status::InvalidStudy)
+            Ok(study.system())
         };
         self.study.get_or_init(read).as_ref().map_err(|status| *status)
     }

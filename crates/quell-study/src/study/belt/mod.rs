@@ -1,5 +1,6 @@
 //! The study of a mass on a moving belt: `[belt]`, `[friction]`, `[dither]`, `[solver]`, `[response]`.
 
+mod described;
 mod dither;
 mod number;
 mod solver;
@@ -9,21 +10,17 @@ pub(in crate::study) mod units;
 
 use std::sync::Arc;
 
-use quell_design::actuator::Actuator;
 use quell_dynamics::response::Solver;
-use quell_dynamics::start::InitialState;
-use quell_input::complaint::Complaints;
 use quell_input::document::Table;
 use quell_model::parameter::NORMAL_LOAD;
 use quell_model::units::{Quantity, Scales, UnitSystem};
-use quell_model::{Belt, Dither, Friction, LawKind, System};
+use quell_model::{Belt, Dither, Friction, LawKind};
 
 use super::StudyOf;
 use super::actuator;
 use super::band;
-use super::design::{self, Design, DesignContext};
+use super::design::{self, DesignContext};
 use super::disc::DiscSetup;
-use super::dither_size::GivenSize;
 use super::friction;
 use super::path::key_at;
 use super::reader::{EquationScale, Reader};
@@ -31,8 +28,11 @@ use super::study_kind::{StudyKind, wrong_kind};
 use super::vocabulary::DocumentKind;
 
 use super::friction::Measured;
-use super::system::{DescribedSystem, SystemSetup, SystemStudy};
+use super::passivity;
+use super::plausible;
+use super::system::SystemSetup;
 
+use described::BeltRun;
 use table::BeltTable;
 pub(in crate::study) use table::one_state;
 
@@ -43,17 +43,11 @@ pub type BeltStudy = StudyOf<BeltSetup>;
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeltSetup {
     belt: Belt,
-    initial: InitialState,
     solver: Solver,
-    band: Option<[f64; 2]>,
     /// The samples of a measured law.
     measured: Option<Arc<Measured>>,
-    /// The design that is asked for.
-    design: Option<Design>,
-    /// The actuator that gives the dither.
-    actuator: Option<Actuator>,
-    /// Amplitudes that are given by another size than a peak force.
-    sizes: Arc<[GivenSize]>,
+    /// The study of its system, in the units of answers.
+    system: SystemSetup,
 }
 
 impl StudyKind for BeltSetup {
@@ -70,42 +64,13 @@ impl StudyKind for BeltSetup {
             reader.complain(wrong_kind(Self::NAME, SystemSetup::NAME, node.origin));
             return None;
         }
-        let mut belt = table::read(reader, document);
-        let friction = friction::read(reader, document, belt.normal_load);
-        let read_dithers = dither::read(reader, document);
-        let dithers: Option<Vec<Dither>> = read_dithers
-            .as_ref()
-            .map(|read| read.iter().map(|(dither, ..)| dither.clone()).collect());
-        if let Some(load) = friction.as_ref().and_then(|read| read.own_load) {
-            belt.normal_load = Some(load);
-            friction::needs_no_normal_force(reader, document, dithers.as_deref());
-        }
-        let (friction, measured) =
-            friction.map_or((None, None), |read| (Some(read.law), read.measured));
-        let solver = solver::read(reader, document);
-        let band = band::read(reader, document);
-        let first = dithers.as_deref().and_then(<[Dither]>::first);
-        let context =
-            DesignContext { waveform: first.map(|dither| &dither.waveform), document, places: &[] };
-        let design = design::read(reader, document, context);
-        let actuator = actuator::read(reader, document);
-        let known = actuator.as_ref().and_then(Option::as_ref);
-        let sized =
-            read_dithers.and_then(|read| dither::sized(reader, read, known, belt.damping_ratio));
-        let (dithers, sizes) = sized.unzip();
-        let initial = belt.initial;
-        table::slider_has_one_state(reader, document, friction.as_ref());
-        let built = build(reader, belt, friction, dithers);
-        Some(Self {
-            belt: built?.in_si(reader.known_scales()),
-            initial: initial?,
-            solver: solver?,
-            band: band?,
-            measured,
-            design: design?,
-            actuator: actuator?,
-            sizes: sizes?.into(),
-        })
+        let mut setup = Self::assembled(reader, document)?;
+        let SystemSetup { system, warnings, .. } = &mut setup.system;
+        let units = setup.belt.scales().map(|scales| scales.units());
+        let unlikely = units.map(|units| plausible::warnings(system, units, false));
+        warnings.extend(unlikely.into_iter().flatten());
+        warnings.extend(passivity::warnings(&system.contacts, units.unwrap_or_default()));
+        Some(setup)
     }
 }
 
@@ -118,9 +83,49 @@ impl BeltSetup {
         &self.belt
     }
 
-    /// The units of answers, and of the system of the belt.
-    pub fn units(&self) -> UnitSystem {
-        self.belt.scales().map_or(UnitSystem::None, |scales| scales.units())
+    /// The study of its system, in the units of answers.
+    pub fn system(&self) -> &SystemSetup {
+        &self.system
+    }
+
+    /// Reads the study of a belt without its warnings; `None` if something is wrong, which has then been reported.
+    pub(super) fn assembled(reader: &mut Reader, document: &Table) -> Option<Self> {
+        let mut belt = table::read(reader, document);
+        let friction = friction::read(reader, document, belt.normal_load);
+        let (dithers, sizes) = dither::read(reader, document).unzip();
+        if let Some(load) = friction.as_ref().and_then(|read| read.own_load) {
+            belt.normal_load = Some(load);
+            friction::needs_no_normal_force(reader, document, dithers.as_deref());
+        }
+        let (friction, measured) =
+            friction.map_or((None, None), |read| (Some(read.law), read.measured));
+        let solver = solver::read(reader, document);
+        let band = band::read(reader, document);
+        let first = dithers.as_deref().and_then(<[Dither]>::first);
+        let waveform = first.map(|dither| &dither.waveform);
+        let scale = reader.units().scale;
+        // What is asked for is in the units of answers.
+        if reader.known_scales().is_some() {
+            reader.set_scale(EquationScale::OfTheFile);
+        }
+        let design =
+            design::read(reader, document, DesignContext { waveform, document, places: &[] });
+        let actuator = actuator::read(reader, document);
+        reader.set_scale(scale);
+        let initial = belt.initial.take();
+        table::slider_has_one_state(reader, document, friction.as_ref());
+        let belt = build(reader, belt, friction, dithers)?.in_si(reader.known_scales());
+        let run = BeltRun {
+            initial: initial?,
+            solver: solver?,
+            band: band?,
+            design: design?,
+            actuator: actuator?,
+            sizes: sizes?,
+        };
+        let solver = run.solver;
+        let (belt, system) = described::system(reader, belt, run)?;
+        Some(Self { belt, solver, measured, system })
     }
 }
 
@@ -130,19 +135,9 @@ impl BeltStudy {
         &self.kind().belt
     }
 
-    /// Initial state of a run.
-    pub fn initial(&self) -> InitialState {
-        self.kind().initial
-    }
-
     /// Accuracy and length of the computations.
     pub fn solver(&self) -> &Solver {
         &self.kind().solver
-    }
-
-    /// The band in which the level of the response is reported, in ω₀.
-    pub fn band(&self) -> Option<[f64; 2]> {
-        self.kind().band
     }
 
     /// Mass and stiffness of a study with units.
@@ -152,7 +147,7 @@ impl BeltStudy {
 
     /// The units of answers, and of the system of the belt.
     pub fn units(&self) -> UnitSystem {
-        self.kind().units()
+        self.kind().system.units()
     }
 
     /// What the key at a path gives for one number of the equations, and the path of that number; `None` where the study has no such
@@ -162,56 +157,6 @@ impl BeltStudy {
         let number = number::number_of_the_equations(path, &address);
         self.number(&number)?;
         Some((number, number::per_one(self.belt(), path)?))
-    }
-
-    /// The system of the belt, in the units of a study that has units.
-    ///
-    /// # Errors
-    /// A complaint about a law whose numbers are out of their bounds in these units.
-    pub fn system(&self) -> Result<System, Complaints> {
-        super::template::Template::system(self.kind())
-    }
-
-    /// The belt as a system, with the given row and start.
-    pub fn as_system(&self, described: DescribedSystem) -> SystemStudy {
-        self.map_kind(described.into())
-    }
-
-    /// The design that the study asks for.
-    pub fn design(&self) -> Option<&Design> {
-        self.kind().design.as_ref()
-    }
-
-    /// The actuator that gives the dither.
-    pub fn actuator(&self) -> Option<&Actuator> {
-        self.kind().actuator.as_ref()
-    }
-
-    /// The same in the units of [`BeltStudy::system`].
-    pub fn actuator_in_units(&self) -> Option<Actuator> {
-        actuator::read(&mut self.reader_in_units(), &self.source.document).flatten()
-    }
-
-    /// The design in these units.
-    pub fn design_in_units(&self) -> Option<Design> {
-        let first = self.belt().dithers().first();
-        let context = DesignContext {
-            waveform: first.map(|dither| &dither.waveform),
-            document: &self.source.document,
-            places: &[],
-        };
-        design::read(&mut self.reader_in_units(), &self.source.document, context).flatten()
-    }
-
-    fn reader_in_units(&self) -> Reader {
-        let source = &self.source;
-        Reader::in_units(self.units(), EquationScale::OfTheFile)
-            .with(source.files.to_read_again(), source.computed.clone())
-    }
-
-    /// The amplitudes that the study gives by another size than a peak force.
-    pub fn given_sizes(&self) -> &[GivenSize] {
-        &self.kind().sizes
     }
 
     /// The samples of a measured law.

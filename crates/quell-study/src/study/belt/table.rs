@@ -1,6 +1,5 @@
 //! `[belt]` and `[belt.initial]`.
 
-use quell_dynamics::start::InitialState;
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table};
 use quell_model::parameter::{
@@ -14,6 +13,7 @@ use serde_json::Value as Json;
 use crate::study::course::{Course, CoursePlace, no_constant, replaces_constant};
 use crate::study::friction;
 use crate::study::reader::{Found, Reader};
+use crate::study::system::SystemStart;
 use crate::study::vocabulary::{Choice, DRIVE, LOAD, Section};
 
 /// Numbers of `[belt]`; `None` where a value is invalid.
@@ -24,7 +24,8 @@ pub(super) struct BeltTable {
     pub(super) belt_velocity: Option<f64>,
     /// Absent of a rigid contact.
     pub(super) tangential_stiffness: Option<f64>,
-    pub(super) initial: Option<InitialState>,
+    /// Where runs begin, displacement and velocity in numbers of the equations.
+    pub(super) initial: Option<SystemStart>,
     /// Velocity and load over time, where they are given.
     pub(super) drive: Option<Course>,
     pub(super) load: Option<Course>,
@@ -86,7 +87,7 @@ fn numbers(reader: &mut Reader, (node, table): (&Node, &Table), in_newtons: bool
     };
     let initial = match table.get("initial") {
         Some(node) => initial(reader, node),
-        None => Some(InitialState::Rest),
+        None => Some(SystemStart::Rest),
     };
     let courses_are_right = drive.is_ok() && load.is_ok();
     let (drive, load) = (drive.unwrap_or_default(), load.unwrap_or_default());
@@ -130,7 +131,7 @@ pub(in crate::study) fn one_state(law: LawKind) -> String {
     )
 }
 
-fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
+fn initial(reader: &mut Reader, node: &Node) -> Option<SystemStart> {
     const PREFIX: &str = "belt.initial";
     let table = reader.table(PREFIX, node)?;
     reader.unknown_keys(table, Section::Initial, PREFIX);
@@ -138,12 +139,8 @@ fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
     let velocity = reader.optional(table, PREFIX, INITIAL_VELOCITY);
     let numbers = [displacement, velocity].iter().any(|found| *found != Found::Absent);
     let Some(state) = table.get("state") else {
-        return Some(InitialState::Explicit {
-            displacement: displacement.or(0.0)?,
-            velocity: velocity.or(0.0)?,
-        })
-        .filter(|_| numbers)
-        .or(Some(InitialState::Rest));
+        let values = vec![displacement.or(0.0)?, velocity.or(0.0)?];
+        return Some(if numbers { SystemStart::Values(values) } else { SystemStart::Rest });
     };
     let name = reader.choice("belt.initial.state", state, Choice::State);
     if numbers {
@@ -153,8 +150,8 @@ fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
         return None;
     }
     name.map(|name| match name {
-        "sliding" => InitialState::Sliding,
-        "squealing" => InitialState::Squealing,
-        _ => InitialState::Rest,
+        "sliding" => SystemStart::Sliding,
+        "squealing" => SystemStart::Squealing,
+        _ => SystemStart::Rest,
     })
 }

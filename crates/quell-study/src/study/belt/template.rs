@@ -1,14 +1,13 @@
 //! A belt as the template of a study.
 
-use quell_input::complaint::{Complaint, Complaints, Fault, Origin};
+use quell_input::complaint::Complaints;
 use quell_input::document::{Table, Value};
 use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter, indexed};
-use quell_model::{Invalid, System};
-use serde_json::Value as Json;
 
 use super::BeltSetup;
 use crate::study::path;
 use crate::study::steady::{each, replace, scale};
+use crate::study::system::SystemSetup;
 use crate::study::template::Template;
 
 impl Template for BeltSetup {
@@ -16,15 +15,8 @@ impl Template for BeltSetup {
         Self::NAME
     }
 
-    fn system(&self) -> Result<System, Complaints> {
-        let belt = &self.belt;
-        belt.system_in_units().unwrap_or_else(|| Ok(belt.system())).map_err(|invalid| {
-            let complaint = |invalid: Invalid| {
-                let Invalid { key, value, allowed } = invalid;
-                Complaint::new(Fault::Value, key, Origin::Whole, Json::String(value), allowed)
-            };
-            invalid.into_iter().map(complaint).collect::<Vec<Complaint>>().into()
-        })
+    fn system(&self, _: &Table) -> SystemSetup {
+        self.system.clone()
     }
 
     fn number(&self, document: &Table, path: &str) -> Option<f64> {
@@ -55,6 +47,8 @@ impl Template for BeltSetup {
     fn freeze(&self, document: &mut Table, time: f64) -> Result<(), Complaints> {
         let belt = &self.belt;
         let scales = belt.scales();
+        // The moment is one of the system.
+        let time = scales.map_or(time, |scales| scales.angular_frequency() * time);
         if let Some(Value::Table(table)) = document.get_mut("belt").map(|node| &mut node.value) {
             let mut set = |name: &str, parameter: Parameter, value: f64| {
                 let own = scales.map_or(value, |scales| scales.to_units(parameter.quantity, value));

@@ -32,7 +32,8 @@ use super::design::{self, Design, DesignContext};
 use super::path;
 use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
-use super::system::{DescribedSystem, SystemStudy};
+use super::system::{SystemSetup, SystemStart, SystemStudy};
+use super::template::Template;
 use super::vocabulary::{Choice, Role, Section, UNITS};
 
 pub use modes::{Listed, ModeSource};
@@ -137,6 +138,14 @@ impl DiscSetup {
     pub fn disc(&self) -> &Disc {
         &self.disc
     }
+
+    /// The row of the deflection under the first load; of the first coordinate where there is no load.
+    fn observed_row(&self) -> Vec<f64> {
+        if self.disc.loads().is_empty() {
+            return (0..self.disc.coordinates()).map(|index| f64::from(index == 0)).collect();
+        }
+        self.disc.surface_row(0)
+    }
 }
 
 impl DiscStudy {
@@ -150,9 +159,15 @@ impl DiscStudy {
         self.kind().design.as_ref()
     }
 
-    /// The disc as a system of its own modes, with the given row, start and unit of time.
-    pub fn as_system(&self, described: DescribedSystem) -> SystemStudy {
-        self.map_kind(described.into())
+    /// The disc as the system of its modes, whose runs begin there.
+    pub fn starting_from(&self, initial: SystemStart) -> SystemStudy {
+        let setup = self.kind().system(&self.source.document);
+        self.map_kind(SystemSetup { initial, ..setup })
+    }
+
+    /// The row of the deflection under the first load; of the first coordinate where there is no load.
+    pub fn observed_row(&self) -> Vec<f64> {
+        self.kind().observed_row()
     }
 
     /// The contributions that are switched on.
@@ -199,25 +214,29 @@ impl DiscStudy {
     /// Whether a key of the study gives a load, its speed or the dither's frequency in SI: plain numbers of speeds and
     /// frequencies are in hertz then.
     pub fn is_si(&self) -> bool {
-        let document = &self.source.document;
-        let mut given = Vec::new();
-        for (name, node) in document.iter() {
-            node.leaves(name, &mut given);
-        }
-        let said = |(path, value): &(String, String)| {
-            let Ok(found) = path::follow(document, path) else { return false };
-            let key = found.key;
-            let of_motion = !matches!(key.section, Section::Disc | Section::DiscMode);
-            let quoted = || {
-                let has_unit = key.quantity().is_some_and(|quantity| quantity.si_unit().is_some());
-                has_unit && measure::has_unit(value.trim_matches('"'))
-            };
-            match key.role {
-                Role::Twin(..) => true,
-                Role::Course(course) => course.si() == Some(true),
-                _ => of_motion && quoted(),
-            }
-        };
-        !self.file_units().is_none() || given.iter().any(said)
+        is_si(&self.source.document)
     }
+}
+
+/// [`DiscStudy::is_si`] of a document.
+fn is_si(document: &Table) -> bool {
+    let mut given = Vec::new();
+    for (name, node) in document.iter() {
+        node.leaves(name, &mut given);
+    }
+    let said = |(path, value): &(String, String)| {
+        let Ok(found) = path::follow(document, path) else { return false };
+        let key = found.key;
+        let of_motion = !matches!(key.section, Section::Disc | Section::DiscMode);
+        let quoted = || {
+            let has_unit = key.quantity().is_some_and(|quantity| quantity.si_unit().is_some());
+            has_unit && measure::has_unit(value.trim_matches('"'))
+        };
+        match key.role {
+            Role::Twin(..) => true,
+            Role::Course(course) => course.si() == Some(true),
+            _ => of_motion && quoted(),
+        }
+    };
+    !units_of(document).is_none() || given.iter().any(said)
 }

@@ -1,16 +1,18 @@
 //! A disc as the template of a study.
 
+use std::f64::consts::TAU;
+
 use quell_input::complaint::{Complaints, Origin};
 use quell_input::document::{Node, Table, Value};
-use quell_model::System;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, DISC_SPEED, LOAD_FRICTION, LOAD_NORMAL};
-use quell_model::units::DiscScales;
+use quell_model::units::{DiscScales, UnitSystem};
 
-use super::DiscSetup;
+use super::{DiscSetup, is_si};
 use crate::study::path;
 use crate::study::steady::{each, scale_by};
 use crate::study::study_kind::StudyKind;
+use crate::study::system::{ScaledTime, SystemSetup};
 use crate::study::template::Template;
 use crate::study::vocabulary::UNITS;
 
@@ -19,8 +21,14 @@ impl Template for DiscSetup {
         Self::NAME
     }
 
-    fn system(&self) -> Result<System, Complaints> {
-        Ok(self.disc.system())
+    fn system(&self, document: &Table) -> SystemSetup {
+        let source = &self.plate.source;
+        let time = source
+            .reference_hz(self.plate.material.as_ref())
+            .map(|hertz| ScaledTime { per_second: TAU * hertz, plain_in_seconds: is_si(document) });
+        let system = self.disc.system_of(self.parts);
+        let setup = SystemSetup::of(system, UnitSystem::None, self.observed_row());
+        SystemSetup { warnings: self.plate.warnings.clone(), time, ..setup }
     }
 
     fn number(&self, document: &Table, path: &str) -> Option<f64> {

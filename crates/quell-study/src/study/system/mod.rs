@@ -16,7 +16,7 @@ mod parameters;
 mod read;
 mod rows;
 mod setup;
-mod sized;
+pub(in crate::study) mod sized;
 mod structure;
 mod template;
 mod unused;
@@ -37,7 +37,7 @@ pub(in crate::study) use dither::PLACES;
 pub use initial::SystemStart;
 pub use quell_input::frequency_response::FrequencyResponse;
 pub(in crate::study) use read::assemble;
-pub use setup::{DescribedSystem, RecordSettings, ScaledTime, SystemSetup};
+pub use setup::{RecordSettings, ScaledTime, SystemSetup};
 
 use crate::study::path::{self, set};
 

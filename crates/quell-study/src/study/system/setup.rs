@@ -13,7 +13,6 @@ use quell_model::units::UnitSystem;
 use super::initial::SystemStart;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
-use crate::study::passivity;
 use crate::study::path;
 use crate::study::reader::{EquationScale, NumbersByName, Reader};
 use crate::study::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};
@@ -21,23 +20,23 @@ use crate::study::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, Sized
 /// The parts of a study that only a system has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemSetup {
-    pub(super) system: Arc<System>,
-    pub(super) observe: Vec<f64>,
-    pub(super) initial: SystemStart,
-    pub(super) units: UnitSystem,
-    pub(super) named: NumbersByName,
-    pub(super) warnings: Vec<String>,
-    pub(super) response: Option<Arc<FrequencyResponse>>,
+    pub(in crate::study) system: Arc<System>,
+    pub(in crate::study) observe: Vec<f64>,
+    pub(in crate::study) initial: SystemStart,
+    pub(in crate::study) units: UnitSystem,
+    pub(in crate::study) named: NumbersByName,
+    pub(in crate::study) warnings: Vec<String>,
+    pub(in crate::study) response: Option<Arc<FrequencyResponse>>,
     /// The design that is requested.
-    pub(super) design: Option<Design>,
+    pub(in crate::study) design: Option<Design>,
     /// The actuator that gives a dither.
-    pub(super) actuator: Option<Actuator>,
+    pub(in crate::study) actuator: Option<Actuator>,
     /// Amplitudes that are given by another size than a peak force.
-    pub(super) sizes: Arc<[GivenSize]>,
-    pub(super) tolerance: Option<f64>,
-    pub(super) record: RecordSettings,
+    pub(in crate::study) sizes: Arc<[GivenSize]>,
+    pub(in crate::study) tolerance: Option<f64>,
+    pub(in crate::study) record: RecordSettings,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
-    pub(super) time: Option<ScaledTime>,
+    pub(in crate::study) time: Option<ScaledTime>,
 }
 
 /// The unit of time of a study whose other numbers have no units.
@@ -60,70 +59,28 @@ pub struct RecordSettings {
     pub band: Option<[f64; 2]>,
 }
 
-/// A system that a study of another kind describes, with what a run of it needs.
-#[derive(Clone, Debug)]
-pub struct DescribedSystem {
-    /// The system, in these units.
-    pub system: System,
-    /// The units of its numbers.
-    pub units: UnitSystem,
-    /// The row that is observed, over the coordinates.
-    pub observe: Vec<f64>,
-    /// Where a run begins.
-    pub initial: SystemStart,
-    /// What is valid but unlikely, in sentences.
-    pub warnings: Vec<String>,
-    /// Amplitudes that are given by another size than a peak force.
-    pub sizes: Vec<GivenSize>,
-    /// The actuator that gives the first dither, in these units.
-    pub actuator: Option<Actuator>,
-    /// The design that is requested, in these units.
-    pub design: Option<Design>,
-    /// Bound on the last retained terms of a step of a run, relative to the load; `None` for that of the engine.
-    pub tolerance: Option<f64>,
-    /// How a steady response is recorded.
-    pub record: RecordSettings,
-    /// Its unit of time, if it is known.
-    pub time: Option<ScaledTime>,
-}
-
-impl From<DescribedSystem> for SystemSetup {
-    fn from(described: DescribedSystem) -> Self {
-        let DescribedSystem {
-            system,
-            units,
-            observe,
-            initial,
-            mut warnings,
-            sizes,
-            actuator,
-            design,
-            tolerance,
-            record,
-            time,
-        } = described;
-        warnings.extend(passivity::warnings(&system.contacts, units));
-        Self {
-            system: Arc::new(system),
-            observe,
-            initial,
-            units,
-            named: NumbersByName::default(),
-            warnings,
-            response: None,
-            design,
-            actuator,
-            sizes: sizes.into(),
-            tolerance,
-            record,
-            time,
-        }
-    }
-}
-
 impl SystemSetup {
     /// Name of the kind.
     pub const NAME: &'static str = "system";
+
+    /// A system in these units, observed by a row over its coordinates, whose runs begin at rest.
+    pub(in crate::study) fn of(system: System, units: UnitSystem, observe: Vec<f64>) -> Self {
+        Self {
+            system: Arc::new(system),
+            observe,
+            initial: SystemStart::Rest,
+            units,
+            named: NumbersByName::default(),
+            warnings: Vec::new(),
+            response: None,
+            design: None,
+            actuator: None,
+            sizes: Arc::default(),
+            tolerance: None,
+            record: RecordSettings::default(),
+            time: None,
+        }
+    }
 
     /// The system in the units of the file.
     pub fn system(&self) -> &System {
@@ -134,12 +91,15 @@ impl SystemSetup {
     pub fn units(&self) -> UnitSystem {
         self.units
     }
-}
 
-impl SystemSetup {
-    /// The same parts with another system.
-    pub(in crate::study) fn with_system(&self, system: System) -> Self {
-        Self { system: system.into(), ..self.clone() }
+    /// Where a run begins.
+    pub fn initial(&self) -> &SystemStart {
+        &self.initial
+    }
+
+    /// The actuator that gives the dither.
+    pub fn actuator(&self) -> Option<&Actuator> {
+        self.actuator.as_ref()
     }
 
     /// A reader of numbers as those of this study.

@@ -12,7 +12,7 @@ use crate::study::vocabulary::join;
 
 /// Sets the amplitudes that the actuator determines. Returns every amplitude that is given by another size than a peak force; `None`
 /// if one is wrong.
-pub(super) fn amplitudes(
+pub(in crate::study) fn amplitudes(
     reader: &mut Reader,
     system: &mut System,
     actuator: Option<&Actuator>,
@@ -31,7 +31,11 @@ pub(super) fn amplitudes(
             SizedAmplitude::Driven(driven) => driven,
         };
         let wave = system.inputs[dither].profile.waves().first().cloned()?;
-        let sliding = Linearised::new(system).map_err(|why| why.to_string());
+        let sliding = Linearised::new(system).or_else(|why| {
+            // Where nothing slides, contacts under prescribed loads still leave the motion of the dither to the structure.
+            Linearised::new(&without_prescribed_loads(system)).map_err(|_| why)
+        });
+        let sliding = sliding.map_err(|why| why.to_string());
         let point = sliding.as_ref().map_err(Clone::clone).and_then(|sliding| {
             let target = &system.inputs[dither].target;
             DrivenPoint::of_input(system, sliding, target, &wave.waveform, wave.frequency)
@@ -47,4 +51,11 @@ pub(super) fn amplitudes(
         given.push(driven.into_given(dither, amplitude));
     }
     whole.then_some(given)
+}
+
+/// The system without the contacts whose load its motion does not change.
+fn without_prescribed_loads(system: &System) -> System {
+    let mut system = system.clone();
+    system.contacts.retain(|contact| contact.normal.is_some() || contact.slope.is_some());
+    system
 }

@@ -2,7 +2,6 @@
 
 use quell_input::complaint::Complaints;
 use quell_input::document::Table;
-use quell_model::System;
 use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter, indexed};
 use quell_model::system::{Contact, Input};
 
@@ -16,8 +15,8 @@ impl Template for SystemSetup {
         Self::NAME
     }
 
-    fn system(&self) -> Result<System, Complaints> {
-        Ok(self.system.as_ref().clone())
+    fn system(&self, _: &Table) -> Self {
+        self.clone()
     }
 
     fn number(&self, document: &Table, path: &str) -> Option<f64> {

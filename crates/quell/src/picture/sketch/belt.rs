@@ -136,8 +136,8 @@ fn dithers(mut sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
                 (arrow, (across, -32.0))
             }
         };
-        let given =
-            study.actuator().filter(|_| place == 0 && dither.direction == Direction::Tangential);
+        let given = study.kind().system().actuator();
+        let given = given.filter(|_| place == 0 && dither.direction == Direction::Tangential);
         if let Some(actuator) = given {
             sheet = sheet.with(actuator::drawn((wave.0 + 13.0, wave.1), actuator));
         }
@@ -226,7 +226,7 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
         let head = format!("{} {} dither", dither.direction.name(), dither.waveform.name());
         sheet = sheet.with_key(SketchKey::new(crate::words::capital(&head), items));
     }
-    if let Some(given) = study.actuator() {
+    if let Some(given) = study.kind().system().actuator() {
         sheet =
             sheet.with_key(actuator::key(given, &|quantity, value| words(study, quantity, value)));
     }

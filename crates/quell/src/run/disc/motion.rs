@@ -16,9 +16,7 @@ use crate::outcome::disc_units::{DiscUnits, FORCE, POWER};
 use crate::run::simulate::{MotionRequest, Simulation, run_observed};
 use crate::run::system::in_units_of;
 use crate::run::system::periods::slowest_period;
-use crate::study::{
-    DescribedSystem, DiscStudy, RecordSettings, ScaledTime, SystemStart, SystemStudy, UnitSystem,
-};
+use crate::study::{DiscStudy, SystemStart, SystemStudy};
 use crate::words::digits;
 
 /// Least number of periods of the leading small motion that a run lasts if no duration is given.
@@ -60,41 +58,6 @@ pub struct DiscSimulation {
     pub ran_away: bool,
 }
 
-/// The row of the deflection under the first load; of the first coordinate where there is no load.
-fn observed_row(study: &DiscStudy) -> Vec<f64> {
-    let disc = study.disc();
-    if disc.loads().is_empty() {
-        return (0..disc.coordinates()).map(|index| f64::from(index == 0)).collect();
-    }
-    disc.surface_row(0)
-}
-
-/// The disc as a system with this start.
-fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemStudy {
-    let time = study
-        .reference_hz()
-        .map(|hertz| ScaledTime { per_second: TAU * hertz, plain_in_seconds: study.is_si() });
-    study.as_system(DescribedSystem {
-        actuator: None,
-        design: None,
-        tolerance: None,
-        record: RecordSettings::default(),
-        units: UnitSystem::None,
-        system,
-        observe: observed_row(study),
-        initial,
-        warnings: study.warnings().to_vec(),
-        sizes: Vec::new(),
-        time,
-    })
-}
-
-/// The disc as a system at rest: the names of its state and its unit of time.
-pub fn at_rest(study: &DiscStudy) -> SystemStudy {
-    let system = study.disc().system_of(study.parts());
-    described(study, system, SystemStart::Rest)
-}
-
 /// The disc as a system that begins on its leading small motion, as `simulate` does.
 ///
 /// # Errors
@@ -102,14 +65,14 @@ pub fn at_rest(study: &DiscStudy) -> SystemStudy {
 pub fn disturbed(study: &DiscStudy) -> Result<SystemStudy, Failure> {
     let system = study.disc().system_of(study.parts());
     let initial = of_leading_motion(&leading_motion(study, &system, 0.0)?);
-    Ok(described(study, system, initial))
+    Ok(study.starting_from(initial))
 }
 
 /// The leading small motion; of a speed, load or dither that varies, that of the moment at which a run begins.
 fn leading_motion(study: &DiscStudy, system: &System, begin: f64) -> Result<Kick, Failure> {
     let moment =
         (!study.disc().is_steady()).then(|| study.disc().steady_at(begin).system_of(study.parts()));
-    kick::of(moment.as_ref().unwrap_or(system), &observed_row(study))
+    kick::of(moment.as_ref().unwrap_or(system), &study.observed_row())
 }
 
 fn of_leading_motion(kick: &Kick) -> SystemStart {
@@ -128,7 +91,7 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
     let kick = leading_motion(study, &system, begin)?;
     let initial =
         if request.begins_as_the_study() { of_leading_motion(&kick) } else { SystemStart::Rest };
-    let system = described(study, system, initial);
+    let system = study.starting_from(initial);
     let until = match request.until {
         Some(until) => until,
         None => begin + usual_duration(&system, &kick)?,
@@ -136,7 +99,7 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
     let request_of_system =
         MotionRequest { until: Some(until), undithered: false, ..request.clone() };
     let from = until - TAIL * (until - begin);
-    let mut watch = RowWatch::new(observed_row(study), kick.middle, kick.levels.clone(), from);
+    let mut watch = RowWatch::new(study.observed_row(), kick.middle, kick.levels.clone(), from);
     let done = run_observed(&system, &request_of_system, &mut watch);
     let ran_away = watch.largest() > RUNAWAY * kick.amplitude.max(f64::MIN_POSITIVE);
     let motion = done.map_err(|failure| match failure {

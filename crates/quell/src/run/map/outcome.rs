@@ -7,7 +7,6 @@ use quell_model::units::Quantity;
 use serde_json::{Map as Object, Value as Json, json};
 
 use crate::dataset::{Array, Dataset};
-use crate::run::belt_system::system_of;
 use crate::run::system::in_units;
 use crate::sweep::{Content, Data, Plan, Status, VariableArrays};
 use crate::words::plural;
@@ -159,7 +158,7 @@ impl FinishedMap {
 
     /// The ranges of the friction laws for the study's own values.
     fn ranges(&self) -> String {
-        let Ok(study) = system_of(self.plan.grid().study()) else { return String::new() };
+        let study = self.plan.grid().study().system();
         let ranges = study.system().contacts.iter().filter_map(|contact| {
             let (range, law) = (contact.friction.range()?, contact.friction.kind().name());
             let upper = in_units(study.units(), Quantity::Velocity, range.upper);

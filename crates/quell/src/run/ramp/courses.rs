@@ -11,7 +11,6 @@ use quell_model::units::Quantity;
 
 use super::{Ramp, RampCourse, RampThreshold, RampedMotion};
 use crate::complaint::Failure;
-use crate::run::belt_system;
 use crate::run::simulate::{self, MotionRequest};
 use crate::run::system::attractor::rate_of;
 use crate::run::system::has_equations;
@@ -105,14 +104,7 @@ fn oscillates(study: &SystemStudy) -> bool {
 
 /// The steady system of a time.
 fn steady_at(study: &SystemStudy, time: f64) -> Result<SystemStudy, Failure> {
-    let declared = study.declared();
-    match declared.belt() {
-        Ok(belt) => {
-            let per_second = belt.scales().map_or(1.0, |scales| scales.angular_frequency());
-            belt_system::described(&declared.at_time(per_second * time)?.belt()?)
-        }
-        Err(_) => Ok(declared.at_time(time)?.system()?),
-    }
+    Ok(study.declared().at_time(time)?.system())
 }
 
 /// Thresholds of the steady system over the values of the ramp: under dither of its base response, otherwise of steady sliding.

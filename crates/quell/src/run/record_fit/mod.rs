@@ -21,7 +21,7 @@ use super::decay::{pattern, record_warnings};
 use super::named_estimates::{NamedEstimates, ReportedParameter};
 use super::recorded_motion::ObservedMotion;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::study::{Change, Study};
+use crate::study::{Change, Kind, Study};
 use crate::verbs::verbs;
 use model::RecordModel;
 use request::free_numbers;
@@ -309,8 +309,9 @@ impl RecordFit {
             let value = self.named.value(place);
             let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
             // A table of a list has a place or a name of its own.
-            let is_plain =
-                self.study.system().is_err() && !table.contains('[') && table != "dither";
+            let is_plain = !matches!(self.study.kind(), Kind::System(_))
+                && !table.contains('[')
+                && table != "dither";
             let line = format!("{key} = {value:?}\n");
             let (heading, line) = if is_plain {
                 (format!("[{table}]\n"), line)

@@ -110,7 +110,7 @@ pub(super) fn free_numbers(study: &Study, free: &[String]) -> Result<Vec<FreeSta
 
 /// The start of a number of the study: given, or its value in the study.
 fn started(study: &Study, path: &str, given: Option<f64>) -> Result<f64, Vec<Complaint>> {
-    let Some(start) = given.or_else(|| value_at(study, path)) else {
+    let Some(start) = given.or_else(|| study.number(path)) else {
         // The complaint of a path that does not exist has the nearest one.
         if let Err(wrong) = study.with(path, 1.0)
             && wrong.iter().any(|complaint| complaint.fault == Fault::Unknown)
@@ -131,25 +131,4 @@ fn for_option(complaint: Complaint) -> Complaint {
     let allowed =
         if complaint.fault == Fault::Unknown { complaint.allowed.clone() } else { allowed };
     Complaint { origin: Origin::Argument("--free"), allowed, ..complaint }
-}
-
-/// The number at a path of a study; `None` if the study does not give it there.
-fn value_at(study: &Study, path: &str) -> Option<f64> {
-    if let Ok(system) = study.system() {
-        return system.number(path);
-    }
-    let document = study.document();
-    let mut node = &document;
-    for part in path.split('.') {
-        let (name, index) = match part.split_once('[') {
-            Some((name, rest)) => (name, rest.strip_suffix(']')?.parse::<usize>().ok()?),
-            None => (part, 0),
-        };
-        node = node.get(name)?;
-        // One table stands for a list of one.
-        if let Some(list) = node.as_array() {
-            node = list.get(index)?;
-        }
-    }
-    node.as_f64()
 }

@@ -61,8 +61,7 @@ impl MapQuantity {
     /// A complaint with the quantities of the study.
     pub(super) fn accepts(&self, study: &Study) -> Result<(), Box<Complaint>> {
         let name = format!("map --quantity {}", self.name);
-        let measured = study.system().ok().and_then(|study| measured_alone(&study, &name));
-        if let Some(complaint) = measured {
+        if let Some(complaint) = measured_alone(&study.system(), &name) {
             return Err(Box::new(complaint));
         }
         let Some(refused) = self.needs.refused(study, &name) else { return Ok(()) };
