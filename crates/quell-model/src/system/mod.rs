@@ -14,11 +14,13 @@
 
 mod contact;
 mod input;
+mod layout;
 mod mass;
 mod structure;
 
 pub use contact::Contact;
 pub use input::{Input, InputTarget};
+pub use layout::StateEntry;
 pub use mass::MassMatrix;
 pub use structure::{Mechanical, SpeedDependence, StateSpace, Structure};
 

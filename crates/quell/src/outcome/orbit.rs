@@ -12,7 +12,6 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::orbit::{FoundMotion, PeriodicResponse};
-use crate::run::system::start::{state_names, state_quantity};
 use crate::study::{SystemSetup, SystemStudy};
 
 /// Numbers of a state, multipliers and contacts that a table lists.
@@ -67,9 +66,9 @@ fn table(study: &SystemStudy, found: &FoundMotion) -> String {
     }
     row("modulus of the deciding multiplier", figure(orbit.radius()));
     row("period", figure(orbit.period) + &unit(Some(Quantity::Time)));
-    let states = state_names(study.system()).into_iter().zip(&orbit.state).enumerate();
+    let states = study.system().state_names().into_iter().zip(&orbit.state).enumerate();
     for (place, (name, value)) in states.take(MOST_LISTED) {
-        let unit = unit(state_quantity(study.system(), place));
+        let unit = unit(study.system().state_quantity(place));
         row(&format!("{name} at t = 0"), figure(*value) + &unit);
     }
     for (contact, means) in study.system().contacts.iter().zip(samples.means()).take(MOST_LISTED) {

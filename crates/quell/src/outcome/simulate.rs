@@ -13,7 +13,6 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::simulate::history::KINDS;
 use crate::run::simulate::{MotionRequest, Simulation, run};
-use crate::run::system::start::{state_names, state_quantity};
 use crate::sound::SoundOptions;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -152,12 +151,12 @@ fn contacts(study: &SystemStudy, done: &Simulation, text: &mut String) {
 /// The state at the end.
 fn final_state(study: &SystemStudy, done: &Simulation, text: &mut String) {
     let system = study.system();
-    let names = state_names(system);
+    let names = system.state_names();
     let width = names.iter().take(MOST_NUMBERS).map(|name| name.chars().count()).max();
     let width = width.unwrap_or(0).max("final state".len());
     let _ = writeln!(text, "  final state");
     for (place, value) in done.end.state.iter().enumerate().take(MOST_NUMBERS) {
-        let unit = state_quantity(system, place).and_then(|quantity| study.units().unit(quantity));
+        let unit = system.state_quantity(place).and_then(|quantity| study.units().unit(quantity));
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
         let _ = writeln!(text, "  {:<width$}  {}{unit}", names[place], figure(*value));
     }

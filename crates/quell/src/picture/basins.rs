@@ -13,7 +13,6 @@ use crate::plot::{
 };
 use crate::run::basins::{Basins, FoundBasin, Portrait, Share, quiescence};
 use crate::run::system::attractor::in_words;
-use crate::run::system::start::state_quantity;
 use crate::study::SystemStudy;
 use quell_dynamics::attractor::MotionKind;
 use quell_dynamics::orbit::CycleSamples;
@@ -48,7 +47,7 @@ pub fn basins(study: &SystemStudy, done: &Basins) -> Result<Figure, Failure> {
 fn axis(study: &SystemStudy, done: &Basins, number: usize) -> (PlotAxis, Ruler) {
     let (from, to) = done.windows[number];
     let name = done.names[number].as_str();
-    let Some(quantity) = state_quantity(study.system(), done.places[number]) else {
+    let Some(quantity) = study.system().state_quantity(done.places[number]) else {
         return (PlotAxis::new(name), Ruler::of_unit("", from.abs().max(to.abs())));
     };
     let ruler = Ruler::of_system(study, quantity, [from, to]);

@@ -9,7 +9,6 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::system::attractor::{VERDICTS, in_words, put_attractor, verdict_code};
 use crate::run::system::of_runs::beyond_laws;
-use crate::run::system::start::{state_names, state_quantity};
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
 use crate::words::{capital, digits, plural};
@@ -129,7 +128,7 @@ impl Basins {
             (None, [portrait]) => vec![portrait.sentence()],
             _ => self.over_parameter(study),
         };
-        let other = state_names(study.system()).len() - 2;
+        let other = study.system().state_names().len() - 2;
         let [first, second] = &self.names;
         if other > 0 {
             sentences.push(format!(
@@ -211,9 +210,9 @@ impl Basins {
 
     /// The unit of an axis.
     fn unit(&self, study: &SystemStudy, axis: usize) -> &'static str {
-        let names = state_names(study.system());
+        let names = study.system().state_names();
         let place = names.iter().position(|name| *name == self.names[axis]);
-        let quantity = place.and_then(|place| state_quantity(study.system(), place));
+        let quantity = place.and_then(|place| study.system().state_quantity(place));
         quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1")
     }
 

@@ -7,7 +7,6 @@ use super::StartLayout;
 use crate::complaint::{Complaint, Complaints, Failure};
 use crate::nearest;
 use crate::quantity;
-use crate::run::system::start::{state_names, state_quantity};
 use crate::study::SystemStudy;
 
 /// An axis of the plane of starts.
@@ -25,7 +24,7 @@ pub(super) fn places(
     axes: &[PlaneAxis; 2],
     layout: StartLayout,
 ) -> Result<[usize; 2], Failure> {
-    let names = state_names(study.system());
+    let names = study.system().state_names();
     let mut wrong = Vec::new();
     let places = axes.each_ref().map(|axis| {
         let place = names.iter().position(|name| *name == axis.name);
@@ -83,7 +82,7 @@ pub fn default_plane(
     study: &SystemStudy,
     [across, up]: [Option<(f64, f64)>; 2],
 ) -> Result<[PlaneAxis; 2], Failure> {
-    let names = state_names(study.system());
+    let names = study.system().state_names();
     let size = study.system().structure.size();
     let second = if study.system().structure.mechanical().is_some() { size } else { 1 };
     let (Some(first), Some(second)) = (names.first(), names.get(second)) else {
@@ -100,14 +99,14 @@ pub fn default_plane(
 /// Complaints about its parts.
 pub fn read_plane(study: &SystemStudy, text: &str) -> Result<[PlaneAxis; 2], Complaints> {
     let option = "--plane";
-    let names = state_names(study.system());
+    let names = study.system().state_names();
     let axis = |part: &str| -> Result<PlaneAxis, Box<Complaint>> {
         let Some((name, window)) = part.split_once('=') else {
             return Ok(PlaneAxis { name: part.trim().to_owned(), window: None });
         };
         let name = name.trim().to_owned();
         let place = names.iter().position(|known| *known == name);
-        let quantity = place.and_then(|place| state_quantity(study.system(), place));
+        let quantity = place.and_then(|place| study.system().state_quantity(place));
         let read = |text: &str| quantity::of_system(text, quantity, study.units(), option);
         let Some((from, to)) = window.split_once(':') else {
             let allowed = "NAME=FROM:TO, such as x=-1:1";

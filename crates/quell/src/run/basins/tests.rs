@@ -8,7 +8,7 @@ const STUDY: &str = "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\n
     [friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 0.2\n";
 
 fn study() -> SystemStudy {
-    Study::parse(STUDY, &[]).expect("valid").system().expect("a system")
+    Study::parse(STUDY, &[]).expect("valid").system()
 }
 
 /// If no outcome is known, nothing is stated about whether starts reach the base response.

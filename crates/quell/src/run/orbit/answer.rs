@@ -11,7 +11,6 @@ use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::system::of_runs::beyond_laws;
-use crate::run::system::start::{state_names, state_quantity};
 use crate::study::SystemStudy;
 use crate::words::{capital, digits, plural};
 
@@ -271,7 +270,7 @@ impl PeriodicResponse {
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("state_names", state_names(study.system()));
+            .plain("state_names", study.system().state_names());
         match &self.found {
             Some(found) => put_found(&mut fields, study, found),
             None => self.put_without(&mut fields),
@@ -426,7 +425,7 @@ fn dataset(study: &SystemStudy, found: &FoundMotion) -> Dataset {
     };
     let time = Array::new("time", unit(Some(Quantity::Time)), samples.times.clone());
     let mut dataset = Dataset::of(&study.into(), "orbit").with_axis(time);
-    let names = state_names(system);
+    let names = system.state_names();
     let observed = [
         ("displacement", Quantity::Displacement, &samples.observed),
         ("velocity", Quantity::Velocity, &samples.rate),
@@ -440,7 +439,7 @@ fn dataset(study: &SystemStudy, found: &FoundMotion) -> Dataset {
     for (place, name) in names.into_iter().enumerate() {
         let values = samples.states.iter().skip(place).step_by(size).copied().collect();
         let name = if name == "time" { "displacement.time".to_owned() } else { name };
-        dataset = dataset.with(Array::new(name, unit(state_quantity(system, place)), values));
+        dataset = dataset.with(Array::new(name, unit(system.state_quantity(place)), values));
     }
     let (velocity, force) = (unit(Some(Quantity::Velocity)), unit(Some(Quantity::Force)));
     for (contact, sampled) in system.contacts.iter().zip(&samples.contacts) {

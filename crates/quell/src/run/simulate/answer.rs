@@ -10,7 +10,7 @@ use super::{DEFAULT_PERIODS, Simulation};
 use crate::fields::Fields;
 use crate::run::system::in_units_of;
 use crate::run::system::of_runs::{of_engine, put_means};
-use crate::run::system::start::{observed_state, start_in_words, state_names};
+use crate::run::system::start::{observed_state, start_in_words};
 use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{capital, listed, plural};
 
@@ -141,7 +141,7 @@ impl Simulation {
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("state_names", state_names(system));
+            .plain("state_names", system.state_names());
         fields.nested("start", moment(study, self.start.time, &self.start.state));
         fields.nested("final", self.put_end(study));
         // The units are those of start and end.

@@ -6,7 +6,7 @@ use quell_model::units::Quantity;
 use super::Simulation;
 use super::history::{KINDS, code};
 use crate::dataset::{Array, Dataset};
-use crate::run::system::start::{observed_states, state_names, state_quantity};
+use crate::run::system::start::observed_states;
 use crate::study::SystemStudy;
 
 /// What a contact does, as words with their codes.
@@ -35,7 +35,7 @@ fn columns(study: &SystemStudy) -> Vec<String> {
         "time" | "displacement" | "velocity" => format!("displacement.{name}"),
         _ => name,
     };
-    state_names(study.system()).into_iter().map(taken).collect()
+    study.system().state_names().into_iter().map(taken).collect()
 }
 
 /// Adds columns of the observed displacement and its velocity, and one for every number of the states.
@@ -48,7 +48,7 @@ fn with_states(mut dataset: Dataset, study: &SystemStudy, states: &[f64]) -> Dat
         dataset = dataset.with(Array::new("velocity", unit(Quantity::Velocity), rates));
     }
     for (place, name) in columns(study).into_iter().enumerate() {
-        let unit = unit_of(study, state_quantity(study.system(), place));
+        let unit = unit_of(study, study.system().state_quantity(place));
         dataset = dataset.with(Array::new(name, unit, column(states, place, size)));
     }
     dataset

@@ -2,9 +2,9 @@
 
 use quell_dynamics::motion::MotionStart;
 use quell_dynamics::orbit::{base_state, sliding_state, squealing_state};
+use quell_model::System;
 use quell_model::system::Mechanical;
-use quell_model::units::{Quantity, measure};
-use quell_model::{Contact, System};
+use quell_model::units::measure;
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
@@ -18,40 +18,6 @@ pub type StateNumbers = Vec<(usize, f64)>;
 
 /// Numbers of a state that a sentence lists.
 const MOST_LISTED: usize = 8;
-
-/// Names of the numbers of a state: coordinates and `velocity.` coordinate, or the states of first-order equations; then `friction.`
-/// contact of elastic sliders and `bristle.` contact of bristles.
-pub fn state_names(system: &System) -> Vec<String> {
-    let names = system.structure.names();
-    let velocities = names.iter().map(|name| format!("velocity.{name}"));
-    let structure: Vec<String> = match system.structure.mechanical() {
-        Some(_) => names.iter().cloned().chain(velocities).collect(),
-        None => names.to_vec(),
-    };
-    let own = with_states(system).map(|contact| match contact.friction.bristles() {
-        Some(_) => format!("bristle.{}", contact.name),
-        None => format!("friction.{}", contact.name),
-    });
-    structure.into_iter().chain(own).collect()
-}
-
-/// The contacts with a number of their own in the state, in its order.
-fn with_states(system: &System) -> impl Iterator<Item = &Contact> {
-    system.contacts.iter().filter(|contact| contact.has_state())
-}
-
-/// What the number at a place of a state is; `None` for first-order equations.
-pub fn state_quantity(system: &System, place: usize) -> Option<Quantity> {
-    if let Some(own) = place.checked_sub(system.structure.state_size()) {
-        let contact = with_states(system).nth(own)?;
-        return Some(match contact.friction.bristles() {
-            Some(_) => Quantity::Displacement,
-            None => Quantity::Force,
-        });
-    }
-    let displacements = system.structure.mechanical()?.size();
-    Some(if place < displacements { Quantity::Displacement } else { Quantity::Velocity })
-}
 
 /// The observed displacement of a state and its velocity; no velocity for first-order equations.
 pub(crate) fn observed_state(study: &SystemStudy, state: &[f64]) -> (f64, Option<f64>) {
@@ -76,9 +42,9 @@ pub(in crate::run) fn state_columns(
     study: &SystemStudy,
     states: &[&[f64]],
 ) -> Dataset {
-    let names = state_names(study.system()).into_iter().enumerate();
+    let names = study.system().state_names().into_iter().enumerate();
     names.fold(dataset, |dataset, (place, name)| {
-        let quantity = state_quantity(study.system(), place);
+        let quantity = study.system().state_quantity(place);
         let unit = quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1");
         let values = states.iter().map(|state| state[place]).collect();
         dataset.with(Array::new(format!("state.{name}"), unit, values))
@@ -160,7 +126,7 @@ pub fn pair(study: &SystemStudy, (x, v): (&str, &str)) -> Result<StateNumbers, C
     if system.structure.mechanical().is_none_or(|mechanical| mechanical.size() != 1) {
         return Err(unnamed("--start", &format!("{x},{v}")).into());
     }
-    let names = state_names(system);
+    let names = system.state_names();
     named(study, names.iter().map(String::as_str).zip([x, v]).map(Ok))
 }
 
@@ -173,7 +139,7 @@ pub fn named<'a>(
     pairs: impl Iterator<Item = Result<(&'a str, &'a str), Box<Complaint>>>,
 ) -> Result<StateNumbers, Complaints> {
     let system = study.system();
-    let names = state_names(system);
+    let names = system.state_names();
     let mut numbers = StateNumbers::new();
     let mut wrong: Vec<Complaint> = Vec::new();
     for pair in pairs {
@@ -183,7 +149,7 @@ pub fn named<'a>(
                 let allowed = format!("one value for {name}");
                 return Err(Box::new(Complaint::option("--start", text, allowed)));
             }
-            let quantity = state_quantity(system, place);
+            let quantity = system.state_quantity(place);
             Ok((place, quantity::of_system(text, quantity, study.units(), "--start")?))
         });
         match number {
@@ -244,9 +210,9 @@ pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
 
 /// Numbers of a state with their names and units.
 fn listed(study: &SystemStudy, numbers: &StateNumbers) -> String {
-    let names = state_names(study.system());
+    let names = study.system().state_names();
     let given = numbers.iter().map(|(place, value)| {
-        let quantity = state_quantity(study.system(), *place);
+        let quantity = study.system().state_quantity(*place);
         let unit = quantity.and_then(|quantity| study.units().unit(quantity));
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
         format!("{} = {}{unit}", names[*place], digits(*value))
@@ -256,7 +222,7 @@ fn listed(study: &SystemStudy, numbers: &StateNumbers) -> String {
 
 /// A state in words, at most a few of its numbers.
 pub fn state_in_words(system: &System, state: &[f64]) -> String {
-    let names = state_names(system);
+    let names = system.state_names();
     let listed = names.iter().zip(state).take(MOST_LISTED);
     let listed = listed.map(|(name, value)| format!("{name} = {}", digits(*value)));
     let more = if state.len() > MOST_LISTED { ", …" } else { "" };

@@ -15,7 +15,7 @@ use crate::fields::Fields;
 use crate::run::criticality;
 use crate::run::system::attractor::put_state;
 use crate::run::system::of_runs::beyond_laws;
-use crate::run::system::start::{state_columns, state_names};
+use crate::run::system::start::state_columns;
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
 use crate::words::plural;
@@ -117,7 +117,7 @@ impl Thresholds {
             .plain("parameter", self.request.parameter.clone())
             .measured("from", unit, from)
             .measured("to", unit, to)
-            .plain("state_names", state_names(study.system()))
+            .plain("state_names", study.system().state_names())
             .plain("resumes", self.resumes);
         match &self.local {
             Ok(local) => {

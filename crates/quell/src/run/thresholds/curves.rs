@@ -16,7 +16,7 @@ use crate::document::given_number;
 use crate::fields::Fields;
 use crate::run::criticality;
 use crate::run::system::of_runs::beyond_laws;
-use crate::run::system::start::{state_columns, state_names};
+use crate::run::system::start::state_columns;
 use crate::run::system::tracked::{TrackRequest, understood};
 use crate::run::system::{failed, has_equations, value_at};
 use crate::study::SystemStudy;
@@ -342,7 +342,7 @@ impl Curves {
             .measured("to", unit, window.1)
             .plain("along", along.as_str())
             .measured("between", across, vec![between.0, between.1])
-            .plain("state_names", state_names(study.system()))
+            .plain("state_names", study.system().state_names())
             .list("curves", curves)
             .list("averaged", averaged)
             .plain("warnings", self.warnings(study));
