@@ -11,13 +11,8 @@ use clap::{ArgMatches, Command, CommandFactory, FromArgMatches, Parser, Subcomma
 use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
-use crate::answer::Answer;
-use crate::verbs::{
-    actuator, attractor, basins, bifurcation, check, cite, compare, completions, design, fit,
-    friction, map, modes, new, orbit, probability, report, reproduce, resonances, response, schema,
-    simulate, sketch, stability, thresholds, waveforms,
-};
-use crate::{answer, help, interrupt, progress};
+use crate::verbs::{Verb, completions};
+use crate::{answer, help, hint, interrupt, progress};
 
 /// Finds the dither that silences friction-induced vibration, and quantifies its confidence
 #[derive(Debug, Parser)]
@@ -27,37 +22,14 @@ use crate::{answer, help, interrupt, progress};
                         Exit status: 0 done, 2 invalid input, 1 failed, 130 interrupted.")]
 pub(crate) struct Cli {
     #[command(subcommand)]
-    verb: Verb,
+    verb: CliVerb,
 }
 
 #[derive(Debug, Subcommand)]
-enum Verb {
-    New(new::Arguments),
+enum CliVerb {
+    #[command(flatten)]
+    Answering(Box<Verb>),
     Completions(completions::Arguments),
-    Check(check::Arguments),
-    Schema(schema::Arguments),
-    Sketch(sketch::Arguments),
-    Report(report::Arguments),
-    Cite(cite::Arguments),
-    Fit(fit::Arguments),
-    Compare(compare::Arguments),
-    Friction(friction::Arguments),
-    Stability(stability::Arguments),
-    Simulate(simulate::Arguments),
-    Response(response::Arguments),
-    Orbit(orbit::Arguments),
-    Attractor(attractor::Arguments),
-    Thresholds(thresholds::Arguments),
-    Waveforms(waveforms::Arguments),
-    Design(design::Arguments),
-    Actuator(actuator::Arguments),
-    Probability(probability::Arguments),
-    Bifurcation(bifurcation::Arguments),
-    Basins(basins::Arguments),
-    Map(map::Arguments),
-    Modes(modes::Arguments),
-    Resonances(resonances::Arguments),
-    Reproduce(reproduce::Arguments),
 }
 
 /// The command line with its help.
@@ -72,54 +44,25 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         .iter()
         .take_while(|argument| *argument != "--")
         .any(|argument| argument == "--json");
-    let parsed = command().try_get_matches_from(&arguments);
+    let mut command = command();
+    let parsed = command.try_get_matches_from_mut(&arguments);
     let named = |matches: ArgMatches| {
         let name = matches.subcommand_name().unwrap_or_default().to_owned();
         Cli::from_arg_matches(&matches).map(|cli| (name, cli))
     };
     let (name, cli) = match parsed.and_then(named) {
         Ok(named) => named,
-        Err(error) => return usage_error(&error, json),
+        Err(error) => return usage_error(&hint::explained(error, &arguments, &command), json),
     };
-    match progress::during(&name, || cli.verb.run()) {
+    let answer = match &cli.verb {
+        CliVerb::Answering(verb) => progress::during(&name, || verb.run()),
+        CliVerb::Completions(arguments) => completions::run(arguments, &mut command),
+    };
+    match answer {
         Ok(answer) => answer.show(),
         Err(failure) => {
             let status = answer::refuse(&failure, json);
             if interrupt::is_stopping() { ExitCode::from(interrupt::INTERRUPTED) } else { status }
-        }
-    }
-}
-
-impl Verb {
-    /// The answer of the verb.
-    fn run(&self) -> Result<Answer, Failure> {
-        match self {
-            Self::New(arguments) => new::run(arguments),
-            Self::Completions(arguments) => completions::run(arguments, &mut command()),
-            Self::Check(arguments) => check::run(arguments),
-            Self::Schema(arguments) => schema::run(arguments),
-            Self::Sketch(arguments) => sketch::run(arguments),
-            Self::Report(arguments) => report::run(arguments),
-            Self::Cite(arguments) => cite::run(arguments),
-            Self::Fit(arguments) => fit::run(arguments),
-            Self::Compare(arguments) => compare::run(arguments),
-            Self::Friction(arguments) => friction::run(arguments),
-            Self::Stability(arguments) => stability::run(arguments),
-            Self::Simulate(arguments) => simulate::run(arguments),
-            Self::Response(arguments) => response::run(arguments),
-            Self::Orbit(arguments) => orbit::run(arguments),
-            Self::Attractor(arguments) => attractor::run(arguments),
-            Self::Thresholds(arguments) => thresholds::run(arguments),
-            Self::Waveforms(arguments) => waveforms::run(arguments),
-            Self::Design(arguments) => design::run(arguments),
-            Self::Actuator(arguments) => actuator::run(arguments),
-            Self::Probability(arguments) => probability::run(arguments),
-            Self::Bifurcation(arguments) => bifurcation::run(arguments),
-            Self::Basins(arguments) => basins::run(arguments),
-            Self::Map(arguments) => map::run(arguments),
-            Self::Modes(arguments) => modes::run(arguments),
-            Self::Resonances(arguments) => resonances::run(arguments),
-            Self::Reproduce(arguments) => reproduce::run(arguments),
         }
     }
 }
@@ -160,6 +103,10 @@ fn complaint(error: &clap::Error) -> Complaint {
         format!("{first} {}", names.join(", "))
     } else {
         first
+    };
+    let message = match hint::of(error) {
+        Some(hint) => format!("{message}; {hint}"),
+        None => message,
     };
     let value = context(ContextKind::InvalidValue).map_or(Json::Null, Json::from);
     let suggestion = context(ContextKind::SuggestedArg)

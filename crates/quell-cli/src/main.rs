@@ -6,6 +6,7 @@ mod answer;
 mod arguments;
 mod cli;
 mod help;
+mod hint;
 mod interrupt;
 mod progress;
 mod verbs;

@@ -543,3 +543,28 @@ fn help_version_and_schema_succeed() {
     assert_eq!(status, 0);
     assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
 }
+
+/// What a newcomer types first is answered by what to type instead.
+#[test]
+fn first_guesses_are_answered_by_what_to_type() {
+    let place = Place::with("first-guesses", &[("q.toml", STUDY)]);
+    let says = |words: &[&str], wanted: &str| {
+        let output = place.quell(words);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        assert!(said.contains(wanted), "{words:?}: {said}");
+        assert!(!said.contains("as a value"), "{words:?}: {said}");
+    };
+    says(&["q.toml"], "quell report q.toml");
+    says(&["run", "q.toml"], "quell simulate STUDY");
+    says(&["version"], "quell --version");
+    says(&["friction", "q.toml", "-o", "friction.csv"], "`--save FILE`");
+    says(&["response", "q.toml", "--amplitude", "0.5"], "`--set dither.amplitude=0.5`");
+    says(&["response", "q.toml", "--belt-velocity=0.1"], "`--set belt.belt_velocity=0.1`");
+    says(
+        &["response", "q.toml", "--set", "dither.amplitude", "0.5"],
+        "`--set dither.amplitude=0.5`",
+    );
+    says(&["response", "q.toml", "--loud"], "unexpected argument '--loud'");
+    says(&["simulate"], "quell new");
+}
