@@ -246,6 +246,20 @@ fn studies_commands_answers_and_pictures_are_true() {
     assert!(done.iter().map(|(count, _)| count).sum::<usize>() > 4);
 }
 
+/// Every question of the README is answered by its command as it stands.
+#[test]
+fn questions_of_the_readme_run() {
+    let path = root().join("README.md");
+    let text = fs::read_to_string(&path).expect("the README");
+    let rows = text.lines().filter(|line| line.starts_with("| ")).flat_map(|line| line.split('`'));
+    let commands: Vec<&str> = rows.filter(|part| part.starts_with("quell ")).collect();
+    assert!((10..=14).contains(&commands.len()), "{}", commands.len());
+    let folder = workplace();
+    for command in commands {
+        assert!(!run(command, folder.path(), &path).is_empty(), "{command}");
+    }
+}
+
 fn blesses() -> bool {
     std::env::var_os("QUELL_BLESS").is_some()
 }

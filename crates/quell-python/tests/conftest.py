@@ -40,7 +40,7 @@ def belt() -> quell.Belt:
 
 @pytest.fixture
 def disc() -> quell.Disc:
-    """The disc of the README."""
+    """An annular disc with one load."""
     return quell.Disc(
         inner_radius_ratio=0.5,
         poisson_ratio=0.3,

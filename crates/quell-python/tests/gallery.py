@@ -131,7 +131,7 @@ def probability_in_si() -> quell.Study:
 
 @cache
 def disc() -> quell.Disc:
-    """The disc of the README."""
+    """An annular disc with one load."""
     return quell.Disc(
         inner_radius_ratio=0.5,
         poisson_ratio=0.3,
