@@ -6,6 +6,7 @@ use quell_model::Waveform;
 use quell_model::disc::DiscDither;
 
 use super::ruler::short;
+use crate::run::check::damping_ratios;
 use crate::study::disc::ModeSource;
 use crate::study::{DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy};
 use crate::words::plural;
@@ -126,7 +127,11 @@ fn where_equal(text: &str, one: &str, other: &str) -> String {
 /// The caption of a study of a system.
 pub(super) fn caption_of_system(study: &SystemStudy) -> String {
     let size = study.system().structure.size();
-    let mut parts = vec![format!("{size} coordinate{}", plural(size))];
+    let coordinates = format!("{size} coordinate{}", plural(size));
+    let mut parts = vec![match damping_ratios(study).as_deref() {
+        Some([ratio]) => format!("{coordinates}, $ζ$ = {}", short(*ratio)),
+        _ => coordinates,
+    }];
     parts.extend(super::sketch::contacts_and_dithers(study));
     format!("{}.", parts.join(". "))
 }
