@@ -43,15 +43,16 @@ pub(super) fn fields(law: &Friction, load: f64, empty: &dyn Fn() -> Fields) -> F
                 .number("slip_velocity_to", Quantity::Velocity, fit.range.1 * unit);
             fields.nested("fit", inner);
         }
-        Friction::Coulomb(_) | Friction::StribeckExponential(_) | Friction::Lugre(_) => {
-            let level = law.get(COEFFICIENT.path).unwrap_or_default();
-            fields.number("friction_force", Quantity::Force, level * load).number(
-                "static_friction_force",
-                Quantity::Force,
-                law.static_coefficient() * load,
-            );
+        // A level at which sliding friction is constant is a force.
+        _ => {
+            if let Some(level) = law.get(COEFFICIENT.path) {
+                fields.number("friction_force", Quantity::Force, level * load).number(
+                    "static_friction_force",
+                    Quantity::Force,
+                    law.static_coefficient() * load,
+                );
+            }
         }
-        Friction::Stribeck(_) | Friction::Decreasing(_) => {}
     }
     if let Some(range) = law.range() {
         fields
@@ -96,11 +97,7 @@ fn of_own_law(law: &Friction, speed: &dyn Fn(f64) -> String) -> Vec<(String, Str
                 row("  error of the fit", error(fit)),
             ]
         }
-        Friction::Stribeck(_)
-        | Friction::Decreasing(_)
-        | Friction::Coulomb(_)
-        | Friction::StribeckExponential(_)
-        | Friction::Lugre(_) => Vec::new(),
+        _ => Vec::new(),
     }
 }
 
