@@ -155,3 +155,26 @@ impl MotionObserver for CycleSamples {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use quell_model::{Belt, LawKind};
+
+    use super::*;
+
+    #[test]
+    fn a_free_oscillator_reaches_its_amplitude() {
+        // Without friction x = cos τ: from an extreme of x to beyond every other one.
+        let law = LawKind::Stribeck.build(&[0.0, 0.0, 1.0]).expect("valid");
+        let belt = Belt::new(0.0, 1.0, 10.0, law, Vec::new()).expect("valid");
+        let extremes =
+            |until| CycleSamples::over(&belt.system(), &[1.0], &[1.0, 0.0], until).extremes;
+        for (low, high) in extremes(7.0) {
+            assert!((low + 1.0).abs() < 1e-11 && (high - 1.0).abs() < 1e-11, "{low} {high}");
+        }
+        // Over a part of the period the ends count, and the extremes between them.
+        let [displacement, velocity] = extremes(2.0);
+        assert!((displacement.0 - 2.0_f64.cos()).abs() < 1e-11);
+        assert!((velocity.0 + 1.0).abs() < 1e-11 && velocity.1.abs() < 1e-11);
+    }
+}

@@ -250,8 +250,6 @@ impl<'a> Engine<'a> {
             }
         };
         let duration = root.unwrap_or(taken.length);
-        let reaches_stop = duration >= room || self.state.clock.after(duration).time() == stop;
-        self.state.steps += 1;
         if self.watched {
             self.observer.segment(&Segment {
                 clock: self.state.clock,
@@ -259,7 +257,6 @@ impl<'a> Engine<'a> {
                 slip_sign: if sign > 0.0 { 1 } else { -1 },
                 unit: self.unit,
                 belt_velocity: self.belt_velocity,
-                belt_acceleration: &[],
                 displacement: &taken.displacement.gathered(),
                 slip: &taken.slip.gathered(),
             });
@@ -267,22 +264,24 @@ impl<'a> Engine<'a> {
         self.state.displacement = displacement;
         self.state.slip = if root.is_some() { 0.0 } else { taken.end.1 };
         self.state.contact = ContactState::Slip { sign, zeros: 0 };
-        self.advance(duration, reaches_stop, stop);
+        self.advance(duration, room, stop);
         if root.is_some() {
             self.arrive(sign);
         }
         self.check_progress(before)
     }
 
-    /// Advances the clock, exactly to the stop if it is reached.
+    /// Advances the clock by a segment, exactly to the stop if it is reached, which is `room` away.
     #[inline(always)]
-    fn advance(&mut self, duration: f64, reaches_stop: bool, stop: f64) {
+    fn advance(&mut self, duration: f64, room: f64, stop: f64) {
+        let later = self.state.clock.after(duration);
+        self.state.steps += 1;
         self.state.at_break = false;
-        if reaches_stop {
+        if duration >= room || later.time() == stop {
             self.state.clock = Clock::at(stop);
             self.pass_breaks();
         } else {
-            self.state.clock = self.state.clock.after(duration);
+            self.state.clock = later;
         }
     }
 
@@ -343,8 +342,6 @@ impl<'a> Engine<'a> {
         if duration <= 0.0 {
             return;
         }
-        let reaches_stop = duration >= room || self.state.clock.after(duration).time() == stop;
-        self.state.steps += 1;
         if self.watched {
             self.observer.segment(&Segment {
                 clock: self.state.clock,
@@ -352,14 +349,13 @@ impl<'a> Engine<'a> {
                 slip_sign: 0,
                 unit: self.unit,
                 belt_velocity: self.belt_velocity,
-                belt_acceleration: &[],
                 displacement: &[self.state.displacement, self.stiction.belt_velocity],
                 slip: &[0.0],
             });
         }
         self.state.displacement =
             f64::mul_add(self.stiction.belt_velocity, duration, self.state.displacement);
-        self.advance(duration, reaches_stop, stop);
+        self.advance(duration, room, stop);
     }
 }
 

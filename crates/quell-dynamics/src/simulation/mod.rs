@@ -29,14 +29,13 @@
 //! | `forcing`, `clock`, `taylor` | dither, time, order of the series |
 //! | `lanes` | slip steps of many runs side by side |
 //! | `slip_continuation` | slip on one branch of the law, continued through v_r = 0 |
-//! | `observer`, `event`, `extremes`, `largest_slip` | what a run reports |
+//! | `observer`, `event`, `largest_slip` | what a run reports |
 //! | `step_budget` | the limit on steps |
 
 mod clock;
 mod collocation;
 mod engine;
 mod event;
-mod extremes;
 mod forcing;
 mod lane_row;
 mod lanes;
@@ -60,7 +59,6 @@ pub use quell_numerics::dispatch::InstructionSet;
 
 pub use clock::Clock;
 pub use event::{Event, EventKind};
-pub use extremes::Extremes;
 pub(crate) use forcing::{Forcing, harmonic_series};
 pub use largest_slip::{LargestSlip, largest_slips};
 pub(crate) use observer::shift;

@@ -93,7 +93,6 @@ impl Work for SlipContinuation<'_> {
                 slip_sign: if sign > 0.0 { 1 } else { -1 },
                 unit,
                 belt_velocity: belt.belt_velocity(),
-                belt_acceleration: &[],
                 displacement: &series.displacement,
                 slip: &series.slip,
             });
