@@ -204,13 +204,7 @@ impl MotionEvent<'_> {
 /// All events of one moment, which are one decision.
 #[derive(Clone, Copy)]
 pub struct MotionMoment<'a> {
-    /// The moment.
-    pub clock: Clock,
-    /// State.
-    pub state: &'a [f64],
-    /// What the contacts did before.
-    pub before: &'a [ContactPhase],
-    /// What they do from here on.
+    /// What the contacts do from here on.
     pub after: &'a [ContactPhase],
     /// The guards that reached zero together, each with the rate at which it fell, the first one first.
     pub triggers: &'a [(Trigger, f64)],
