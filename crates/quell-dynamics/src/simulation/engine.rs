@@ -19,7 +19,7 @@ use super::event::EventKind;
 use super::forcing::{Forcing, ForcingShape};
 use super::observer::{Observer, Segment};
 use super::release::Release;
-use super::run::SimulationRun;
+use super::run::{RunTerms, SimulationRun};
 use super::run_state::{ContactState, PATIENCE, RunState};
 use super::slip_step::{Next, SlipDue, SlipTaken, StepRoot};
 use super::state::{FinalState, Stalled};
@@ -55,6 +55,8 @@ pub(super) struct Engine<'a> {
     pub(super) longest_step: f64,
     pub(super) until: f64,
     pub(super) smooth_release: bool,
+    /// Whether slip goes on through v_r = 0 on its branch.
+    pub(super) keeps_branch: bool,
     /// Everything about the run that changes between events.
     pub(super) state: RunState,
     budget: StepBudget,
@@ -65,7 +67,7 @@ pub(super) struct Engine<'a> {
 
 impl<'a> Engine<'a> {
     #[inline(never)]
-    pub(super) fn new(run: SimulationRun<'a>, tolerance: f64) -> Self {
+    pub(super) fn new(run: SimulationRun<'a>, terms: RunTerms) -> Self {
         let SimulationRun { belt, start, until, observer } = run;
         let law = belt.friction();
         let unit = law.velocity_scale();
@@ -89,7 +91,7 @@ impl<'a> Engine<'a> {
             release: Release::of(&stiction, (&tangential, &normal), (shapes[0], shapes[1])),
             longest_step: longest_step(&tangential, &normal),
             tolerance: step_tolerance(
-                tolerance,
+                terms.tolerance,
                 (&tangential, &normal),
                 start.displacement / unit,
                 slip,
@@ -100,12 +102,15 @@ impl<'a> Engine<'a> {
             belt_velocity: belt.belt_velocity(),
             until,
             smooth_release: law.starts_at_static_level(),
+            keeps_branch: terms.branch.is_some(),
             state: RunState::new(clock, start.displacement / unit, slip),
             budget,
             watched: observer.watches(),
             observer,
         };
-        if slip == 0.0 {
+        if let Some(sign) = terms.branch {
+            engine.state.contact = ContactState::Slip { sign, zeros: 0 };
+        } else if slip == 0.0 {
             engine.state.contact = engine.decided();
         }
         engine
@@ -400,7 +405,7 @@ impl Work for Accept<'_, '_, '_> {
 
 /// Longest step of slip: a series of order n is accurate for n/2 radians of the fastest oscillation.
 #[inline(always)]
-pub(super) fn longest_step(tangential: &Forcing, normal: &Forcing) -> f64 {
+fn longest_step(tangential: &Forcing, normal: &Forcing) -> f64 {
     0.5 * ORDER as f64 / tangential.highest_rate().max(normal.highest_rate()).max(1.0)
 }
 
@@ -408,7 +413,7 @@ pub(super) fn longest_step(tangential: &Forcing, normal: &Forcing) -> f64 {
 /// the amplitude that the dither drives) need no bound: it would only shorten the steps, indefinitely where F is
 /// negligible compared with the other forces.
 #[inline(always)]
-pub(super) fn step_tolerance(
+fn step_tolerance(
     tolerance: f64,
     (tangential, normal): (&Forcing, &Forcing),
     displacement: f64,

@@ -28,7 +28,6 @@
 //! | `stick`, `release` | the end of a stick |
 //! | `forcing`, `clock`, `taylor` | dither, time, order of the series |
 //! | `lanes` | slip steps of many runs side by side |
-//! | `slip_continuation` | slip on one branch of the law, continued through v_r = 0 |
 //! | `observer`, `event`, `largest_slip` | what a run reports |
 //! | `step_budget` | the limit on steps |
 
@@ -46,7 +45,6 @@ mod run;
 mod run_state;
 mod simulate;
 mod slip;
-mod slip_continuation;
 mod slip_step;
 mod state;
 mod step_budget;
@@ -64,8 +62,8 @@ pub use largest_slip::{LargestSlip, largest_slips};
 pub(crate) use observer::shift;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
 pub use run::SimulationRun;
+pub(crate) use simulate::continue_slip;
 pub use simulate::{DEFAULT_TOLERANCE, simulate, simulate_many, simulate_many_with};
-pub(crate) use slip_continuation::continue_slip;
 pub use state::{FinalState, Stalled, Start};
 pub(crate) use step_budget::StepBudget;
 pub use step_budget::{MOST_STEPS, apart, count_taken, is_used_up, left, within};
