@@ -88,12 +88,12 @@ pub(super) fn shoot_mass(
     tolerance: f64,
 ) -> Result<MassShot, MotionStopped> {
     let (belt, units) = (mass.belt(), MassUnits { mass });
-    let (mut variation, mut recorder) = (Variation::new(belt), EventRecorder::default());
-    let mut observer = (&mut variation, &mut recorder);
+    let mut observer = (Variation::new(belt), EventRecorder::default());
     let span = (units.start(start), mass.rate() * until);
     let sign = sign.map(|sign| units.sign(sign));
     let outcome = run_belt(belt, span, sign, tolerance, &mut observer);
     let end = units.outcome(outcome, until)?;
+    let (variation, recorder) = observer;
     // What one of each number of the belt's state is in that of the system.
     let scales = [mass.displacement(), 1.0 / mass.tangent()];
     let matrix = variation.matrix;

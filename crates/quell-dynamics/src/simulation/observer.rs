@@ -63,21 +63,13 @@ impl Segment<'_> {
     /// the machine's best instruction set.
     #[inline(always)]
     pub(crate) fn displacements_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
-        let mut values = horner_at(self.displacement, since);
-        for value in &mut values {
-            *value *= self.unit;
-        }
-        values
+        horner_at(self.displacement, since).map(|value| value * self.unit)
     }
 
     /// Velocity x′ at N moments, like [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn velocities_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
-        let mut values = horner_at(self.slip, since);
-        for value in &mut values {
-            *value = self.belt_velocity - self.unit * *value;
-        }
-        values
+        self.slips_at(since).map(|slip| self.belt_velocity - slip)
     }
 
     /// Slip velocity v_r = v₀ − x′ at time `since` after its start, within the segment; 0 in stick.
@@ -93,17 +85,13 @@ impl Segment<'_> {
     /// Slip velocity v_r at N moments, like [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn slips_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
-        let mut values = horner_at(self.slip, since);
-        for value in &mut values {
-            *value *= self.unit;
-        }
-        values
+        horner_at(self.slip, since).map(|value| value * self.unit)
     }
 }
 
 /// A Taylor polynomial at N moments at once.
 #[inline(always)]
-pub(crate) fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N] {
+fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N] {
     let mut values = [0.0_f64; N];
     for &coefficient in coefficients.iter().rev() {
         for moment in 0..N {
@@ -170,20 +158,6 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
 
     fn watches(&self) -> bool {
         self.0.watches() || self.1.watches()
-    }
-}
-
-impl<A: Observer> Observer for &mut A {
-    fn segment(&mut self, segment: &Segment<'_>) {
-        (**self).segment(segment);
-    }
-
-    fn event(&mut self, event: &Event) {
-        (**self).event(event);
-    }
-
-    fn watches(&self) -> bool {
-        (**self).watches()
     }
 }
 
