@@ -91,6 +91,7 @@ pub(crate) use own_state::in_steady_sliding;
 pub use phase::ContactPhase;
 pub use reading_sampler::ReadingSampler;
 pub use row_meter::RowMeter;
+pub(crate) use row_meter::RowRange;
 pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};
 pub use variation::MotionVariation;
