@@ -70,7 +70,7 @@ impl<'a> MotionSegment<'a> {
         }
     }
 
-    /// The series of a contact that do not depend on its law: slip, surface and load.
+    /// The series of a contact that do not depend on its law: slip and load.
     fn guided(&self, contact: usize) -> &'a ContactSeries {
         match self.series {
             SegmentSeries::Known { contacts, .. } => &contacts[contact],
@@ -95,11 +95,6 @@ impl<'a> MotionSegment<'a> {
     /// Taylor coefficients of the slip velocity γ of a contact; zero where a rigid contact sticks.
     pub fn slip_velocity(&self, contact: usize) -> &'a [f64; ORDER + 1] {
         &self.guided(contact).slip
-    }
-
-    /// Taylor coefficients of the velocity of the surface of a contact.
-    pub fn surface(&self, contact: usize) -> &'a [f64; ORDER + 1] {
-        &self.guided(contact).surface
     }
 
     /// Taylor coefficients of the friction force T of a contact; zero where it is open.
