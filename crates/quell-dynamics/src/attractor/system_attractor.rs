@@ -87,7 +87,7 @@ impl SystemAttractor {
         let observed =
             |state: &Vec<f64>| -> f64 { row.iter().zip(state).map(|(w, x)| w * x).sum() };
         let section: Vec<f64> = states.iter().map(observed).collect();
-        let [(least, most), _] = samples.extremes;
+        let [(least, most), _] = samples.extremes();
         let bounds = section.iter().fold((least, most), |(a, b), x| (a.min(*x), b.max(*x)));
         let means = samples.means().into_iter();
         let stick: Vec<f64> = means.map(|means| means.stick_fraction).collect();

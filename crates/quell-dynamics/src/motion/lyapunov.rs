@@ -213,20 +213,11 @@ impl GrowthMeter<'_> {
         for index in 0..count {
             let (before, rest) = columns.split_at_mut(index * self.size);
             let column = &mut rest[..self.size];
-            // Twice is enough for orthogonality to rounding.
-            for _ in 0..2 {
-                for other in before.chunks(self.size) {
-                    let along: f64 = other.iter().zip(column.iter()).map(|(a, b)| a * b).sum();
-                    for (entry, other) in column.iter_mut().zip(other) {
-                        *entry -= along * other;
-                    }
-                }
-            }
-            let length = column.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+            let length = orthogonalise(before, column);
             if length <= ERASED * largest {
                 self.erased[index] |= counts;
                 // Any direction orthogonal to the others goes on in its place.
-                replace(before, column, self.size);
+                replace(before, column);
                 continue;
             }
             if counts {
@@ -240,21 +231,27 @@ impl GrowthMeter<'_> {
     }
 }
 
-/// A unit vector orthogonal to the columns before.
-fn replace(before: &[f64], column: &mut [f64], size: usize) {
-    let mut best = 0.0;
-    for axis in 0..size {
-        let mut candidate = vec![0.0; size];
-        candidate[axis] = 1.0;
-        for _ in 0..2 {
-            for other in before.chunks(size) {
-                let along: f64 = other.iter().zip(&candidate).map(|(a, b)| a * b).sum();
-                for (entry, other) in candidate.iter_mut().zip(other) {
-                    *entry -= along * other;
-                }
+/// Takes the unit vectors before out of a column. Returns the length of what remains.
+fn orthogonalise(before: &[f64], column: &mut [f64]) -> f64 {
+    // Twice is enough for orthogonality to rounding.
+    for _ in 0..2 {
+        for other in before.chunks(column.len()) {
+            let along: f64 = other.iter().zip(column.iter()).map(|(a, b)| a * b).sum();
+            for (entry, other) in column.iter_mut().zip(other) {
+                *entry -= along * other;
             }
         }
-        let length = candidate.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+    }
+    column.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+}
+
+/// A unit vector orthogonal to the columns before.
+fn replace(before: &[f64], column: &mut [f64]) {
+    let mut best = 0.0;
+    for axis in 0..column.len() {
+        let mut candidate = vec![0.0; column.len()];
+        candidate[axis] = 1.0;
+        let length = orthogonalise(before, &mut candidate);
         if length > best {
             best = length;
             for (entry, value) in column.iter_mut().zip(&candidate) {

@@ -91,6 +91,7 @@ pub(crate) use own_state::in_steady_sliding;
 pub use phase::ContactPhase;
 pub use reading_sampler::ReadingSampler;
 pub use row_meter::RowMeter;
+pub(crate) use row_meter::RowRange;
 pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};
 pub use variation::MotionVariation;
@@ -248,18 +249,7 @@ impl<'s> Motion<'s> {
         tolerance: f64,
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {
-        let parts = match &self.engine {
-            MotionEngine::OneMass(mass, _) => {
-                let run = PlannedMass { mass, start: start.clone(), until, observer };
-                return run_mass(run, None, tolerance);
-            }
-            MotionEngine::General(equations) => (self.system, equations.as_ref()),
-        };
-        if start.state.len() == self.size() {
-            return MotionRun::new(parts, start, until, tolerance, observer).run();
-        }
-        let whole = MotionStart { time: start.time, state: self.relaxed(&start.state) };
-        MotionRun::new(parts, &whole, until, tolerance, observer).run()
+        self.continued(start, &[], (until, tolerance), observer)
     }
 
     /// The state with T of the elastic sliders that nearly are at their sliding levels put at them, where they slide from there on, and
@@ -287,24 +277,31 @@ impl<'s> Motion<'s> {
         Some(shoot_mass(mass, (&start, until), sign, tolerance))
     }
 
-    /// The same with some contacts kept in these phases: the smooth continuation of a motion beyond the borders of the phases,
+    /// [`Motion::run`] with some contacts kept in these phases: the smooth continuation of a motion beyond the borders of the phases,
     /// which is no motion of the system there. A kept contact has no events.
     pub(crate) fn continued(
         &self,
         start: &MotionStart,
         phases: &[Option<ContactPhase>],
-        until: f64,
+        (until, tolerance): (f64, f64),
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {
-        let parts = match &self.engine {
+        let equations = match &self.engine {
             MotionEngine::OneMass(mass, _) => {
                 let sign = phases.first().copied().flatten().map(ContactPhase::slip_sign);
                 let run = PlannedMass { mass, start: start.clone(), until, observer };
-                return run_mass(run, sign, MOTION_TOLERANCE);
+                return run_mass(run, sign, tolerance);
             }
-            MotionEngine::General(equations) => (self.system, equations.as_ref()),
+            MotionEngine::General(equations) => equations.as_ref(),
         };
-        let run = MotionRun::new(parts, start, until, MOTION_TOLERANCE, observer);
-        run.keeping(phases).run()
+        let relaxed;
+        let start = if start.state.len() == self.size() {
+            start
+        } else {
+            relaxed = MotionStart { time: start.time, state: self.relaxed(&start.state) };
+            &relaxed
+        };
+        let parts = (self.system, equations);
+        MotionRun::new(parts, start, until, tolerance, observer).keeping(phases).run()
     }
 }

@@ -70,7 +70,7 @@ impl<'a> MotionSegment<'a> {
         }
     }
 
-    /// The series of a contact that do not depend on its law: slip, surface and load.
+    /// The series of a contact that do not depend on its law: slip and load.
     fn guided(&self, contact: usize) -> &'a ContactSeries {
         match self.series {
             SegmentSeries::Known { contacts, .. } => &contacts[contact],
@@ -95,11 +95,6 @@ impl<'a> MotionSegment<'a> {
     /// Taylor coefficients of the slip velocity γ of a contact; zero where a rigid contact sticks.
     pub fn slip_velocity(&self, contact: usize) -> &'a [f64; ORDER + 1] {
         &self.guided(contact).slip
-    }
-
-    /// Taylor coefficients of the velocity of the surface of a contact.
-    pub fn surface(&self, contact: usize) -> &'a [f64; ORDER + 1] {
-        &self.guided(contact).surface
     }
 
     /// Taylor coefficients of the friction force T of a contact; zero where it is open.
@@ -204,13 +199,7 @@ impl MotionEvent<'_> {
 /// All events of one moment, which are one decision.
 #[derive(Clone, Copy)]
 pub struct MotionMoment<'a> {
-    /// The moment.
-    pub clock: Clock,
-    /// State.
-    pub state: &'a [f64],
-    /// What the contacts did before.
-    pub before: &'a [ContactPhase],
-    /// What they do from here on.
+    /// What the contacts do from here on.
     pub after: &'a [ContactPhase],
     /// The guards that reached zero together, each with the rate at which it fell, the first one first.
     pub triggers: &'a [(Trigger, f64)],

@@ -88,12 +88,12 @@ pub(super) fn shoot_mass(
     tolerance: f64,
 ) -> Result<MassShot, MotionStopped> {
     let (belt, units) = (mass.belt(), MassUnits { mass });
-    let (mut variation, mut recorder) = (Variation::new(belt), EventRecorder::default());
-    let mut observer = (&mut variation, &mut recorder);
+    let mut observer = (Variation::new(belt), EventRecorder::default());
     let span = (units.start(start), mass.rate() * until);
     let sign = sign.map(|sign| units.sign(sign));
     let outcome = run_belt(belt, span, sign, tolerance, &mut observer);
     let end = units.outcome(outcome, until)?;
+    let (variation, recorder) = observer;
     // What one of each number of the belt's state is in that of the system.
     let scales = [mass.displacement(), 1.0 / mass.tangent()];
     let matrix = variation.matrix;
@@ -243,11 +243,11 @@ struct MassView<'a> {
     unit: f64,
     tangential: Forcing,
     normal: Forcing,
-    /// The series of the last piece, and its end.
+    /// The series of the last piece, and its length.
     states: MassStates,
     contact: ContactSeries,
     now: ContactNow,
-    ended: (Clock, f64),
+    length: f64,
     /// Powers of ω.
     rates: Series,
 }
@@ -275,7 +275,7 @@ impl<'a> MassView<'a> {
             states: [0.0; (ORDER + 1) * SIZE],
             contact,
             now: ContactNow::of(ContactPhase::Stick),
-            ended: (clock, 0.0),
+            length: 0.0,
             rates,
             units,
         };
@@ -309,7 +309,7 @@ impl<'a> MassView<'a> {
             states: &self.states,
             contacts: std::slice::from_ref(&self.contact),
         };
-        self.ended = (clock.after(duration), duration / self.units.mass.rate());
+        self.length = duration / self.units.mass.rate();
         let segment = Shown { clock, duration, series, now: &self.now };
         self.observer.segment(&segment.in_units(self.units));
     }
@@ -328,7 +328,7 @@ impl<'a> MassView<'a> {
             states: OnceCell::new(),
             complete: OnceCell::new(),
         };
-        self.ended = (clock.after(duration), duration / self.units.mass.rate());
+        self.length = duration / self.units.mass.rate();
         let segment =
             Shown { clock, duration, series: SegmentSeries::OfMass(&piece), now: &self.now };
         self.observer.segment(&segment.in_units(self.units));
@@ -336,7 +336,7 @@ impl<'a> MassView<'a> {
 
     /// The rate at which the guard that ended the last piece reached zero.
     fn rate(&self, trigger: Trigger) -> f64 {
-        let (contact, after) = (&self.contact, self.ended.1);
+        let (contact, after) = (&self.contact, self.length);
         let slope = |series: &Series| value(&derivative(series), after);
         match trigger {
             Trigger::Margin(_, side) => {
@@ -373,7 +373,6 @@ impl Observer for MassView<'_> {
     }
 
     fn event(&mut self, event: &Event) {
-        let before = self.now.phase;
         let slip_sign = self.units.sign(event.slip_sign);
         let after = phase_of(slip_sign);
         let trigger = match event.kind {
@@ -383,16 +382,8 @@ impl Observer for MassView<'_> {
         let rate = self.rate(trigger);
         let state = self.units.state(event.displacement, event.velocity);
         let time = event.time / self.units.mass.rate();
-        let clock = if self.ended.0.time() == event.time {
-            self.units.clock(self.ended.0)
-        } else {
-            Clock::at(time)
-        };
         self.now = ContactNow::of(after);
         self.observer.moment(&MotionMoment {
-            clock,
-            state: &state,
-            before: &[before],
             after: &[after],
             triggers: &[(trigger, rate)],
             is_jump: event.is_jump,

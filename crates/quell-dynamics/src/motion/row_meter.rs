@@ -12,13 +12,13 @@ use crate::simulation::Series;
 
 /// The range of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RowRange {
-    least: f64,
-    most: f64,
+pub(crate) struct RowRange {
+    pub(crate) least: f64,
+    pub(crate) most: f64,
 }
 
 impl RowRange {
-    pub(super) const NONE: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
+    pub(crate) const NONE: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
 
     /// Peak to peak; 0 if nothing was added.
     pub(super) fn width(&self) -> f64 {
@@ -33,7 +33,7 @@ impl RowRange {
 
     /// Adds the values of a series from 0 to `duration`, the extrema between its ends included.
     #[inline(always)]
-    pub(super) fn add(&mut self, series: &Series, duration: f64) {
+    pub(crate) fn add(&mut self, series: &Series, duration: f64) {
         self.take(horner(series, 0.0));
         self.take(horner(series, duration));
         // A bound on the distance from the first value: most steps stay within the range so far.

@@ -262,8 +262,9 @@ pub(super) trait StateStorage<V: Lane>: Copy {
     /// A buffer, from the memory that is kept between steps where there is no better place.
     fn buffer(self, kept: &mut Vec<V>) -> Self::Buffer;
 
-    /// Returns the memory of a buffer.
-    fn keep(self, buffer: Self::Buffer, kept: &mut Vec<V>);
+    /// Returns the memory of a buffer, which is on the stack where it is not kept.
+    #[inline(always)]
+    fn keep(self, _: Self::Buffer, _: &mut Vec<V>) {}
 
     /// A row times a state.
     fn dot(self, row: &Self::Row, state: &[V]) -> V;
@@ -271,8 +272,11 @@ pub(super) trait StateStorage<V: Lane>: Copy {
     /// Adds `factor` times a column to a state.
     fn add(self, column: &Self::Row, factor: V, state: &mut [V]);
 
-    /// The same where `mask` is positive, which it is in one lane at least.
-    fn add_where(self, mask: V, column: &Self::Row, factor: V, state: &mut [V]);
+    /// The same where `mask` is positive, which it is in one lane at least: of one run always.
+    #[inline(always)]
+    fn add_where(self, _: V, column: &Self::Row, factor: V, state: &mut [V]) {
+        self.add(column, factor, state);
+    }
 
     /// Writes the state matrix times a state to `out`.
     fn times(self, state: &[V], out: &mut [V]);
@@ -363,11 +367,6 @@ impl StateStorage<f64> for ManyStates<'_> {
     }
 
     #[inline(always)]
-    fn add_where(self, _: f64, column: &RowEntries, factor: f64, state: &mut [f64]) {
-        column.add_to(factor, state);
-    }
-
-    #[inline(always)]
     fn times(self, state: &[f64], out: &mut [f64]) {
         self.matrix.times(state, out);
     }
@@ -402,9 +401,6 @@ impl<const N: usize> StateStorage<f64> for FewStates<'_, N> {
     }
 
     #[inline(always)]
-    fn keep(self, _: [f64; N], _: &mut Vec<f64>) {}
-
-    #[inline(always)]
     fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
         dot_by_halves(&row.dense[..N], &state[..N])
     }
@@ -414,11 +410,6 @@ impl<const N: usize> StateStorage<f64> for FewStates<'_, N> {
         for (entry, value) in state[..N].iter_mut().zip(&column.dense[..N]) {
             *entry = f64::mul_add(*value, factor, *entry);
         }
-    }
-
-    #[inline(always)]
-    fn add_where(self, _: f64, column: &RowEntries, factor: f64, state: &mut [f64]) {
-        self.add(column, factor, state);
     }
 
     #[inline(always)]
@@ -460,9 +451,6 @@ impl StateStorage<f64> for SmallStates<'_> {
     }
 
     #[inline(always)]
-    fn keep(self, _: [f64; SMALL], _: &mut Vec<f64>) {}
-
-    #[inline(always)]
     fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
         dot_by_halves(&row.dense[..self.size], &state[..self.size])
     }
@@ -472,11 +460,6 @@ impl StateStorage<f64> for SmallStates<'_> {
         for (entry, value) in state[..self.size].iter_mut().zip(&column.dense) {
             *entry = f64::mul_add(*value, factor, *entry);
         }
-    }
-
-    #[inline(always)]
-    fn add_where(self, _: f64, column: &RowEntries, factor: f64, state: &mut [f64]) {
-        self.add(column, factor, state);
     }
 
     #[inline(always)]
@@ -510,9 +493,6 @@ impl<V: Lane> StateStorage<V> for LaneStates<'_, V> {
     fn buffer(self, _: &mut Vec<V>) -> [V; SMALL] {
         [V::splat(0.0); SMALL]
     }
-
-    #[inline(always)]
-    fn keep(self, _: [V; SMALL], _: &mut Vec<V>) {}
 
     #[inline(always)]
     fn dot(self, row: &LaneEntries<V>, state: &[V]) -> V {

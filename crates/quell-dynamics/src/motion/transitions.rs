@@ -286,16 +286,12 @@ impl MotionRun<'_> {
         if after == before {
             return Ok(());
         }
-        let state = self.series.start();
         let clock = self.clock;
         let others = triggers.iter().filter(|other| other.what != first.what);
         let reached = [&first].into_iter().chain(others).map(|guard| (guard.what, guard.rate));
         // A sign change of γ under an elastic slider changes no rate.
         let decisive = triggers.iter().filter(|guard| !matches!(guard.what, Trigger::Turn(_)));
         self.observer.moment(&MotionMoment {
-            clock,
-            state,
-            before,
             after: &after,
             triggers: &reached.collect::<Vec<_>>(),
             is_jump: first.after == 0.0 && self.last_break == clock.time(),

@@ -4,7 +4,7 @@ use quell_model::System;
 
 use crate::motion::{
     ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionObserver,
-    MotionSegment, MotionStart,
+    MotionSegment, MotionStart, RowRange,
 };
 use crate::orbit::Orbit;
 use crate::simulation::ORDER;
@@ -41,16 +41,13 @@ pub struct CycleSamples {
     pub rate: Vec<f64>,
     /// The contacts.
     pub contacts: Vec<SampledContact>,
-    /// Exact least and largest value of the observed displacement, and of its rate.
-    pub extremes: [(f64, f64); 2],
     /// The least slip speed of each contact while it slips; infinite where it never does.
     pub least_slip: Vec<f64>,
+    /// Of the observed displacement, and of its rate.
+    ranges: [RowRange; 2],
     /// Means and extremes of the contacts.
     meter: ContactMeter,
 }
-
-/// No value.
-const NO_RANGE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 impl CycleSamples {
     /// The samples of an orbit of a system, with the displacement that `row` observes.
@@ -69,7 +66,7 @@ impl CycleSamples {
             observed: Vec::new(),
             rate: Vec::new(),
             contacts: vec![SampledContact::default(); system.contacts.len()],
-            extremes: [NO_RANGE; 2],
+            ranges: [RowRange::NONE; 2],
             least_slip: vec![f64::INFINITY; system.contacts.len()],
             meter: ContactMeter::new(system.contacts.len()),
         };
@@ -91,22 +88,11 @@ impl CycleSamples {
         self.meter.largest_slip(contact)
     }
 
-    /// Widens a range by the extremes of a series over a segment.
-    fn widen(range: &mut (f64, f64), segment: &MotionSegment<'_>, series: &ObservedSeries) {
-        if series[1..].iter().all(|term| *term == 0.0) {
-            *range = (range.0.min(series[0]), range.1.max(series[0]));
-            return;
-        }
-        let inner = segment.turning_points(series);
-        for since in inner.into_iter().chain([0.0, segment.duration()]) {
-            let value = MotionSegment::value(series, since);
-            *range = (range.0.min(value), range.1.max(value));
-        }
+    /// Exact least and largest value of the observed displacement, and of its rate.
+    pub fn extremes(&self) -> [(f64, f64); 2] {
+        self.ranges.map(|range| (range.least, range.most))
     }
 }
-
-/// A Taylor series of a segment.
-type ObservedSeries = [f64; ORDER + 1];
 
 impl MotionObserver for CycleSamples {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
@@ -118,14 +104,14 @@ impl MotionObserver for CycleSamples {
         for (k, (rate, term)) in rate.iter_mut().zip(&series[1..]).enumerate() {
             *rate = (k + 1) as f64 * term;
         }
-        let [displacements, rates] = &mut self.extremes;
-        Self::widen(displacements, segment, &series);
-        Self::widen(rates, segment, &rate);
+        let [displacements, rates] = &mut self.ranges;
+        displacements.add(&series, duration);
+        rates.add(&rate, duration);
         for (index, least) in self.least_slip.iter_mut().enumerate() {
             if let ContactPhase::Slip(sign) = segment.phase(index) {
-                let mut range = NO_RANGE;
-                Self::widen(&mut range, segment, segment.slip_velocity(index));
-                *least = least.min(if sign > 0 { range.0 } else { -range.1 }.max(0.0));
+                let mut range = RowRange::NONE;
+                range.add(segment.slip_velocity(index), duration);
+                *least = least.min(if sign > 0 { range.least } else { -range.most }.max(0.0));
             }
         }
         while self.times.len() <= SAMPLES {
@@ -153,5 +139,28 @@ impl MotionObserver for CycleSamples {
                 contact.normal_load.push(if phase == ContactPhase::Open { 0.0 } else { load });
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use quell_model::{Belt, LawKind};
+
+    use super::*;
+
+    #[test]
+    fn a_free_oscillator_reaches_its_amplitude() {
+        // Without friction x = cos τ: from an extreme of x to beyond every other one.
+        let law = LawKind::Stribeck.build(&[0.0, 0.0, 1.0]).expect("valid");
+        let belt = Belt::new(0.0, 1.0, 10.0, law, Vec::new()).expect("valid");
+        let extremes =
+            |until| CycleSamples::over(&belt.system(), &[1.0], &[1.0, 0.0], until).extremes();
+        for (low, high) in extremes(7.0) {
+            assert!((low + 1.0).abs() < 1e-11 && (high - 1.0).abs() < 1e-11, "{low} {high}");
+        }
+        // Over a part of the period the ends count, and the extremes between them.
+        let [displacement, velocity] = extremes(2.0);
+        assert!((displacement.0 - 2.0_f64.cos()).abs() < 1e-11);
+        assert!((velocity.0 + 1.0).abs() < 1e-11 && velocity.1.abs() < 1e-11);
     }
 }

@@ -313,10 +313,11 @@ fn run_over<O: MotionObserver>(
     let run = |state: Vec<f64>| {
         let start = MotionStart { time: 0.0, state };
         let mut observer = observer()?;
-        let end = match held {
-            Some(held) => motion.continued(&start, &held.slipping(contacts), time, &mut observer),
-            None => motion.run(&start, time, tolerance, &mut observer),
+        let (phases, tolerance) = match held {
+            Some(held) => (held.slipping(contacts), MOTION_TOLERANCE),
+            None => (Vec::new(), tolerance),
         };
+        let end = motion.continued(&start, &phases, (time, tolerance), &mut observer);
         end.map(|end| (end, observer)).map_err(NoImage::Stopped)
     };
     if let Some((at_levels, sliders)) = motion.at_sliding_levels(state) {

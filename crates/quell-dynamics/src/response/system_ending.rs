@@ -3,14 +3,12 @@
 use std::f64::consts::TAU;
 
 use quell_linear::growth::Verdict;
-use quell_linear::linearised::Linearised;
 use quell_linear::pure_slip::period;
-use quell_linear::spectrum::spectrum;
 use quell_model::System;
 
 use crate::attractor::{MotionKind, NoEnd, SystemAttractor, end_of_run};
 use crate::motion::{Motion, MotionEnd, MotionStart, MotionStopped};
-use crate::orbit::is_on_sliding;
+use crate::orbit::{is_on_sliding, sliding_verdict};
 
 /// Where a run ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,9 +165,7 @@ fn is_unstable_sliding(system: &System, state: &[f64]) -> bool {
 
 /// Whether steady sliding of a system is unstable, so that hardly any run can settle there.
 pub(super) fn cannot_settle(system: &System) -> bool {
-    let Ok(linear) = Linearised::new(system) else { return false };
-    let found = spectrum(&linear, &linear.friction());
-    found.is_ok_and(|found| found.growth.verdict() == Verdict::Unstable)
+    sliding_verdict(system) == Ok(Verdict::Unstable)
 }
 
 /// Whether samples move on by more than they vibrate: the line that fits them best changes by more than their peak-to-peak distance

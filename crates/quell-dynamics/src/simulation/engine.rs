@@ -19,7 +19,7 @@ use super::event::EventKind;
 use super::forcing::{Forcing, ForcingShape};
 use super::observer::{Observer, Segment};
 use super::release::Release;
-use super::run::SimulationRun;
+use super::run::{RunTerms, SimulationRun};
 use super::run_state::{ContactState, PATIENCE, RunState};
 use super::slip_step::{Next, SlipDue, SlipTaken, StepRoot};
 use super::state::{FinalState, Stalled};
@@ -55,6 +55,8 @@ pub(super) struct Engine<'a> {
     pub(super) longest_step: f64,
     pub(super) until: f64,
     pub(super) smooth_release: bool,
+    /// Whether slip goes on through v_r = 0 on its branch.
+    pub(super) keeps_branch: bool,
     /// Everything about the run that changes between events.
     pub(super) state: RunState,
     budget: StepBudget,
@@ -65,7 +67,7 @@ pub(super) struct Engine<'a> {
 
 impl<'a> Engine<'a> {
     #[inline(never)]
-    pub(super) fn new(run: SimulationRun<'a>, tolerance: f64) -> Self {
+    pub(super) fn new(run: SimulationRun<'a>, terms: RunTerms) -> Self {
         let SimulationRun { belt, start, until, observer } = run;
         let law = belt.friction();
         let unit = law.velocity_scale();
@@ -89,7 +91,7 @@ impl<'a> Engine<'a> {
             release: Release::of(&stiction, (&tangential, &normal), (shapes[0], shapes[1])),
             longest_step: longest_step(&tangential, &normal),
             tolerance: step_tolerance(
-                tolerance,
+                terms.tolerance,
                 (&tangential, &normal),
                 start.displacement / unit,
                 slip,
@@ -100,12 +102,15 @@ impl<'a> Engine<'a> {
             belt_velocity: belt.belt_velocity(),
             until,
             smooth_release: law.starts_at_static_level(),
+            keeps_branch: terms.branch.is_some(),
             state: RunState::new(clock, start.displacement / unit, slip),
             budget,
             watched: observer.watches(),
             observer,
         };
-        if slip == 0.0 {
+        if let Some(sign) = terms.branch {
+            engine.state.contact = ContactState::Slip { sign, zeros: 0 };
+        } else if slip == 0.0 {
             engine.state.contact = engine.decided();
         }
         engine
@@ -250,8 +255,6 @@ impl<'a> Engine<'a> {
             }
         };
         let duration = root.unwrap_or(taken.length);
-        let reaches_stop = duration >= room || self.state.clock.after(duration).time() == stop;
-        self.state.steps += 1;
         if self.watched {
             self.observer.segment(&Segment {
                 clock: self.state.clock,
@@ -259,7 +262,6 @@ impl<'a> Engine<'a> {
                 slip_sign: if sign > 0.0 { 1 } else { -1 },
                 unit: self.unit,
                 belt_velocity: self.belt_velocity,
-                belt_acceleration: &[],
                 displacement: &taken.displacement.gathered(),
                 slip: &taken.slip.gathered(),
             });
@@ -267,22 +269,24 @@ impl<'a> Engine<'a> {
         self.state.displacement = displacement;
         self.state.slip = if root.is_some() { 0.0 } else { taken.end.1 };
         self.state.contact = ContactState::Slip { sign, zeros: 0 };
-        self.advance(duration, reaches_stop, stop);
+        self.advance(duration, room, stop);
         if root.is_some() {
             self.arrive(sign);
         }
         self.check_progress(before)
     }
 
-    /// Advances the clock, exactly to the stop if it is reached.
+    /// Advances the clock by a segment, exactly to the stop if it is reached, which is `room` away.
     #[inline(always)]
-    fn advance(&mut self, duration: f64, reaches_stop: bool, stop: f64) {
+    fn advance(&mut self, duration: f64, room: f64, stop: f64) {
+        let later = self.state.clock.after(duration);
+        self.state.steps += 1;
         self.state.at_break = false;
-        if reaches_stop {
+        if duration >= room || later.time() == stop {
             self.state.clock = Clock::at(stop);
             self.pass_breaks();
         } else {
-            self.state.clock = self.state.clock.after(duration);
+            self.state.clock = later;
         }
     }
 
@@ -343,8 +347,6 @@ impl<'a> Engine<'a> {
         if duration <= 0.0 {
             return;
         }
-        let reaches_stop = duration >= room || self.state.clock.after(duration).time() == stop;
-        self.state.steps += 1;
         if self.watched {
             self.observer.segment(&Segment {
                 clock: self.state.clock,
@@ -352,14 +354,13 @@ impl<'a> Engine<'a> {
                 slip_sign: 0,
                 unit: self.unit,
                 belt_velocity: self.belt_velocity,
-                belt_acceleration: &[],
                 displacement: &[self.state.displacement, self.stiction.belt_velocity],
                 slip: &[0.0],
             });
         }
         self.state.displacement =
             f64::mul_add(self.stiction.belt_velocity, duration, self.state.displacement);
-        self.advance(duration, reaches_stop, stop);
+        self.advance(duration, room, stop);
     }
 }
 
@@ -404,7 +405,7 @@ impl Work for Accept<'_, '_, '_> {
 
 /// Longest step of slip: a series of order n is accurate for n/2 radians of the fastest oscillation.
 #[inline(always)]
-pub(super) fn longest_step(tangential: &Forcing, normal: &Forcing) -> f64 {
+fn longest_step(tangential: &Forcing, normal: &Forcing) -> f64 {
     0.5 * ORDER as f64 / tangential.highest_rate().max(normal.highest_rate()).max(1.0)
 }
 
@@ -412,7 +413,7 @@ pub(super) fn longest_step(tangential: &Forcing, normal: &Forcing) -> f64 {
 /// the amplitude that the dither drives) need no bound: it would only shorten the steps, indefinitely where F is
 /// negligible compared with the other forces.
 #[inline(always)]
-pub(super) fn step_tolerance(
+fn step_tolerance(
     tolerance: f64,
     (tangential, normal): (&Forcing, &Forcing),
     displacement: f64,

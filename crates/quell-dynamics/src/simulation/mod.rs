@@ -28,15 +28,13 @@
 //! | `stick`, `release` | the end of a stick |
 //! | `forcing`, `clock`, `taylor` | dither, time, order of the series |
 //! | `lanes` | slip steps of many runs side by side |
-//! | `slip_continuation` | slip on one branch of the law, continued through v_r = 0 |
-//! | `observer`, `event`, `extremes`, `largest_slip` | what a run reports |
+//! | `observer`, `event`, `largest_slip` | what a run reports |
 //! | `step_budget` | the limit on steps |
 
 mod clock;
 mod collocation;
 mod engine;
 mod event;
-mod extremes;
 mod forcing;
 mod lane_row;
 mod lanes;
@@ -47,7 +45,6 @@ mod run;
 mod run_state;
 mod simulate;
 mod slip;
-mod slip_continuation;
 mod slip_step;
 mod state;
 mod step_budget;
@@ -60,14 +57,13 @@ pub use quell_numerics::dispatch::InstructionSet;
 
 pub use clock::Clock;
 pub use event::{Event, EventKind};
-pub use extremes::Extremes;
 pub(crate) use forcing::{Forcing, harmonic_series};
 pub use largest_slip::{LargestSlip, largest_slips};
 pub(crate) use observer::shift;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
 pub use run::SimulationRun;
+pub(crate) use simulate::continue_slip;
 pub use simulate::{DEFAULT_TOLERANCE, simulate, simulate_many, simulate_many_with};
-pub(crate) use slip_continuation::continue_slip;
 pub use state::{FinalState, Stalled, Start};
 pub(crate) use step_budget::StepBudget;
 pub use step_budget::{MOST_STEPS, apart, count_taken, is_used_up, left, within};

@@ -6,7 +6,6 @@ use quell_numerics::polynomial::first_crossing_after;
 
 use super::clock::Clock;
 use super::event::Event;
-use super::state::FinalState;
 use super::taylor::ORDER;
 use crate::sample_times::SampleTimes;
 
@@ -17,10 +16,8 @@ pub struct Segment<'a> {
     pub(super) duration: f64,
     pub(super) slip_sign: i8,
     pub(super) unit: f64,
-    /// v₀ at the start, not in `unit`.
+    /// v₀, not in `unit`.
     pub(super) belt_velocity: f64,
-    /// Coefficients of the belt's velocity beyond the first, in `unit`; empty for a constant one.
-    pub(super) belt_acceleration: &'a [f64],
     /// Coefficients of x and of v_r, in `unit`.
     pub(super) displacement: &'a [f64],
     pub(super) slip: &'a [f64],
@@ -66,21 +63,13 @@ impl Segment<'_> {
     /// the machine's best instruction set.
     #[inline(always)]
     pub(crate) fn displacements_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
-        let mut values = horner_at(self.displacement, since);
-        for value in &mut values {
-            *value *= self.unit;
-        }
-        values
+        horner_at(self.displacement, since).map(|value| value * self.unit)
     }
 
     /// Velocity x′ at N moments, like [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn velocities_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
-        let mut values = horner_at(self.slip, since);
-        for (value, since) in values.iter_mut().zip(since) {
-            *value = self.surface(*since) - self.unit * *value;
-        }
-        values
+        self.slips_at(since).map(|slip| self.belt_velocity - slip)
     }
 
     /// Slip velocity v_r = v₀ − x′ at time `since` after its start, within the segment; 0 in stick.
@@ -90,45 +79,19 @@ impl Segment<'_> {
 
     /// Velocity x′ at time `since` after its start, within the segment; exactly that of the belt in stick.
     pub fn velocity(&self, since: f64) -> f64 {
-        self.surface(since) - self.slip_velocity(since)
-    }
-
-    /// Velocity of the belt at time `since` after its start.
-    #[inline(always)]
-    fn surface(&self, since: f64) -> f64 {
-        if self.belt_acceleration.is_empty() {
-            return self.belt_velocity;
-        }
-        let change = horner(self.belt_acceleration, since) * since;
-        self.unit.mul_add(change, self.belt_velocity)
-    }
-
-    /// Coefficients of v_r − v, minus the velocity, in `unit`.
-    #[inline(always)]
-    pub(super) fn negative_velocity(&self) -> [f64; ORDER + 1] {
-        let mut series = [0.0; ORDER + 1];
-        series[..self.slip.len()].copy_from_slice(self.slip);
-        series[0] -= self.belt_velocity / self.unit;
-        for (coefficient, change) in series[1..].iter_mut().zip(self.belt_acceleration) {
-            *coefficient -= change;
-        }
-        series
+        self.belt_velocity - self.slip_velocity(since)
     }
 
     /// Slip velocity v_r at N moments, like [`Segment::displacements_at`].
     #[inline(always)]
     pub(crate) fn slips_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
-        let mut values = horner_at(self.slip, since);
-        for value in &mut values {
-            *value *= self.unit;
-        }
-        values
+        horner_at(self.slip, since).map(|value| value * self.unit)
     }
 }
 
 /// A Taylor polynomial at N moments at once.
 #[inline(always)]
-pub(crate) fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N] {
+fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N] {
     let mut values = [0.0_f64; N];
     for &coefficient in coefficients.iter().rev() {
         for moment in 0..N {
@@ -198,20 +161,6 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
     }
 }
 
-impl<A: Observer> Observer for &mut A {
-    fn segment(&mut self, segment: &Segment<'_>) {
-        (**self).segment(segment);
-    }
-
-    fn event(&mut self, event: &Event) {
-        (**self).event(event);
-    }
-
-    fn watches(&self) -> bool {
-        (**self).watches()
-    }
-}
-
 /// Records every event.
 #[derive(Clone, Debug, Default)]
 pub struct EventRecorder {
@@ -242,8 +191,7 @@ pub struct Sample {
     pub sticking: bool,
 }
 
-/// Samples the state at τ₀ + nΔ for n = 0, 1, …, which is dense output or a stroboscopic Poincaré section with Δ = 2π/R; or at
-/// given times. Samples are values of the Taylor polynomials of the steps, not interpolated.
+/// Samples the state at τ₀ + nΔ for n = 0, 1, …, which is dense output or a stroboscopic Poincaré section with Δ = 2π/R. Samples are values of the Taylor polynomials of the steps, not interpolated.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     times: SampleTimes,
@@ -255,28 +203,6 @@ impl Sampler {
     /// `count` samples from `first`, `step` apart.
     pub fn new(first: f64, step: f64, count: usize) -> Self {
         Self { times: SampleTimes::Even { first, step, count }, samples: Vec::with_capacity(count) }
-    }
-
-    /// Time between two samples; 0 at given times.
-    pub fn step(&self) -> f64 {
-        match self.times {
-            SampleTimes::Even { step, .. } => step,
-            SampleTimes::Given(_) => 0.0,
-        }
-    }
-
-    /// Samples at these times, in ascending order.
-    pub fn at(times: Vec<f64>) -> Self {
-        Self { samples: Vec::with_capacity(times.len()), times: SampleTimes::Given(times) }
-    }
-
-    /// The samples of a run that has ended: those of its last moment, which may round to just after the end, have its final state.
-    pub fn finished(mut self, end: &FinalState) -> Vec<Sample> {
-        while let Some(time) = self.times.get(self.samples.len()) {
-            let FinalState { displacement, velocity, sticking, .. } = *end;
-            self.samples.push(Sample { time, displacement, velocity, sticking });
-        }
-        self.samples
     }
 }
 
@@ -334,7 +260,9 @@ impl Work for CrossingSearch<'_, '_> {
         let Self { section, segment } = self;
         // level − x′ falls through zero at an upward crossing. Each crossing is divided out
         // by shifting the expansion to it, so that later ones on the segment are found too.
-        let mut shifted = segment.negative_velocity();
+        let mut shifted = [0.0; ORDER + 1];
+        shifted[..segment.slip.len()].copy_from_slice(segment.slip);
+        shifted[0] -= segment.belt_velocity / segment.unit;
         shifted[0] += section.level / segment.unit;
         if shifted[0] == 0.0 {
             return;
@@ -355,11 +283,7 @@ impl Work for CrossingSearch<'_, '_> {
 /// Every moment up to `duration` at which a Taylor polynomial changes sign, in order, and whether it falls there.
 /// Zeros at the start are divided out. The polynomial is overwritten.
 #[inline(always)]
-pub(super) fn each_crossing(
-    series: &mut [f64; ORDER + 1],
-    duration: f64,
-    mut found: impl FnMut(f64, bool),
-) {
+fn each_crossing(series: &mut [f64; ORDER + 1], duration: f64, mut found: impl FnMut(f64, bool)) {
     let mut zeros = series.iter().take_while(|coefficient| **coefficient == 0.0).count();
     let mut since = 0.0;
     let mut rest = duration;

@@ -16,3 +16,12 @@ pub struct SimulationRun<'a> {
     /// Receives every segment and event.
     pub observer: &'a mut dyn Observer,
 }
+
+/// What all runs of one call share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RunTerms {
+    /// Bound on the last retained terms of a step, relative to F.
+    pub(super) tolerance: f64,
+    /// Sign of the branch of the law on which slip goes on, regardless of the sign of v_r; `None` where the contact decides.
+    pub(super) branch: Option<f64>,
+}

@@ -5,7 +5,7 @@ use quell_numerics::dispatch::InstructionSet;
 
 use super::lanes::side_by_side;
 use super::observer::Observer;
-use super::run::SimulationRun;
+use super::run::{RunTerms, SimulationRun};
 use super::state::{FinalState, Stalled, Start};
 
 /// Default bound on the last retained terms, relative to F.
@@ -50,7 +50,30 @@ pub fn simulate_many_with(
     runs: Vec<SimulationRun<'_>>,
     tolerance: f64,
 ) -> Vec<Result<FinalState, Stalled>> {
-    side_by_side(set, runs, tolerance)
+    side_by_side(set, runs, RunTerms { tolerance, branch: None })
+}
+
+/// Integrates slip on the branch of `sign` from `start` to τ = `until`, regardless of the sign of v_r, and passes every segment to
+/// `observer`.
+///
+/// This is not a motion of the belt but the smooth continuation of one: through v_r = 0 slip goes on analytically on one branch of the law,
+/// as slip of the other sign. In this sense an orbit in pure slip that depends on a parameter exists on both sides of the grazing of
+/// v_r = 0, so that the grazing is a simple root of its least slip velocity. In slip of the branch's own sign it is the actual motion.
+///
+/// # Errors
+/// [`Stalled`] if a state leaves the finite numbers or no step advances time.
+pub(crate) fn continue_slip(
+    belt: &Belt,
+    sign: f64,
+    start: Start,
+    until: f64,
+    tolerance: f64,
+    observer: &mut dyn Observer,
+) -> Result<FinalState, Stalled> {
+    let run = SimulationRun { belt, start, until, observer };
+    let terms = RunTerms { tolerance, branch: Some(sign) };
+    let outcomes = side_by_side(InstructionSet::Fma, vec![run], terms);
+    outcomes.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED))
 }
 
 #[cfg(test)]

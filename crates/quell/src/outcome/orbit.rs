@@ -78,7 +78,7 @@ fn table(study: &SystemStudy, found: &FoundMotion) -> String {
             row(&format!("open fraction of {name}"), figure(means.open_fraction));
         }
     }
-    let [displacements, rates] = samples.extremes;
+    let [displacements, rates] = samples.extremes();
     let ranges = [
         ("displacement", Quantity::Displacement, displacements),
         ("velocity", Quantity::Velocity, rates),

@@ -118,43 +118,41 @@ impl<V: Lane> LaneForcings<V> {
         clock: Clock,
         out: &mut StepSeries<V>,
     ) {
-        let pushes = self.pushes.iter_mut().zip(&forcings.pushes).zip(&mut out.pushes);
-        for ((wave, forcing), series) in pushes {
-            wave.admit(lane, forcing, clock, series);
-        }
-        let contacts = self.contacts.iter_mut().zip(&forcings.contacts).zip(&mut out.contacts);
-        for ((waves, forcing), contact) in contacts {
-            let all = waves.iter_mut().zip(forcing.all()).zip(series_of(contact));
-            for ((wave, forcing), series) in all {
-                if let (Some(wave), Some(forcing)) = (wave, forcing) {
-                    wave.admit(lane, forcing, clock, series);
-                }
-            }
-        }
+        self.each(forcings, out, |wave, forcing, series| wave.admit(lane, forcing, clock, series));
     }
 
     /// Writes the series of a step of one run where its lane cannot.
     #[inline(always)]
     pub(super) fn load(
-        &self,
+        &mut self,
         lane: usize,
         forcings: &Forcings,
         clock: Clock,
         out: &mut StepSeries<V>,
     ) {
-        if !self.has_others {
-            return;
+        if self.has_others {
+            self.each(forcings, out, |wave, forcing, series| {
+                wave.load(lane, forcing, clock, series);
+            });
         }
-        let pushes = self.pushes.iter().zip(&forcings.pushes).zip(&mut out.pushes);
-        for ((wave, forcing), series) in pushes {
-            wave.load(lane, forcing, clock, series);
-        }
-        let contacts = self.contacts.iter().zip(&forcings.contacts).zip(&mut out.contacts);
+    }
+
+    /// Calls `write` with every wave, the forcing of a run that it is in a lane, and its series.
+    #[inline(always)]
+    fn each(
+        &mut self,
+        forcings: &Forcings,
+        out: &mut StepSeries<V>,
+        mut write: impl FnMut(&mut LaneWave<V>, &Forcing, &mut SeriesOf<V>),
+    ) {
+        let pushes = self.pushes.iter_mut().zip(&forcings.pushes).zip(&mut out.pushes);
+        pushes.for_each(|((wave, forcing), series)| write(wave, forcing, series));
+        let contacts = self.contacts.iter_mut().zip(&forcings.contacts).zip(&mut out.contacts);
         for ((waves, forcing), contact) in contacts {
-            let all = waves.iter().zip(forcing.all()).zip(series_of(contact));
+            let all = waves.iter_mut().zip(forcing.all()).zip(series_of(contact));
             for ((wave, forcing), series) in all {
                 if let (Some(wave), Some(forcing)) = (wave, forcing) {
-                    wave.load(lane, forcing, clock, series);
+                    write(wave, forcing, series);
                 }
             }
         }

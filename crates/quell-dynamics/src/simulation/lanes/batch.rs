@@ -6,7 +6,7 @@ use quell_numerics::lane::MOST_LANES;
 
 use super::super::engine::Engine;
 use super::super::forcing::ForcingShapes;
-use super::super::run::SimulationRun;
+use super::super::run::{RunTerms, SimulationRun};
 use super::super::slip_step::Next;
 use super::super::state::RunResult;
 use super::super::step_budget::CHECK_INTERVAL;
@@ -53,7 +53,7 @@ impl<'a> Batch<'a> {
     pub(super) fn fill(
         &mut self,
         queue: &mut dyn Iterator<Item = (usize, SimulationRun<'a>)>,
-        tolerance: f64,
+        terms: RunTerms,
         finish: &mut RunFinish<'_>,
     ) -> bool {
         if self.waiting == 0 {
@@ -63,7 +63,7 @@ impl<'a> Batch<'a> {
             while slot.is_none() {
                 let Some((number, run)) = queue.next() else { break };
                 let belt = run.belt;
-                let mut engine = Engine::new(run, tolerance);
+                let mut engine = Engine::new(run, terms);
                 match engine.next(self.set) {
                     Next::Over(result) => finish(number, result),
                     Next::Slip(due) => {

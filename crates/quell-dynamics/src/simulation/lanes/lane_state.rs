@@ -33,6 +33,8 @@ pub(super) struct LaneState {
     normal: ForcingRows,
     /// 1 where slip steps without an event need no service, −1 where each step does.
     unwatched: LaneRow,
+    /// Whether slip goes on through v_r = 0, so that no root of it ends a step.
+    keeps_branch: [bool; MOST_LANES],
     // Constant between two services.
     sign: LaneRow,
     stop: LaneRow,
@@ -72,6 +74,7 @@ impl LaneState {
             tangential: ForcingRows::new(tangential),
             normal: ForcingRows::new(normal),
             unwatched: LaneRow::ZERO,
+            keeps_branch: [false; MOST_LANES],
             sign: LaneRow::ZERO,
             stop: LaneRow::ZERO,
             zeros: LaneRow::ZERO,
@@ -104,6 +107,7 @@ impl LaneState {
             .iter()
             .any(|forcing| forcing.shape == ForcingShape::Several);
         self.unwatched.0[lane] = if engine.watched || several { -1.0 } else { 1.0 };
+        self.keeps_branch[lane] = engine.keeps_branch;
         self.tangential.admit(lane, &engine.tangential);
         self.normal.admit(lane, &engine.normal);
     }
@@ -231,11 +235,11 @@ impl LaneState {
         self.time.0[lane]
     }
 
-    /// Whether a step may have a root.
+    /// Whether a step may end at a root.
     #[inline(always)]
     pub(super) fn is_unproven(&self, lane: usize) -> bool {
         let proven = self.no_root.0[lane] > 0.0;
-        !proven
+        !(proven || self.keeps_branch[lane])
     }
 
     /// Lets the engine of a lane accept the step and continue to its next one. Returns the result of a run that is over.

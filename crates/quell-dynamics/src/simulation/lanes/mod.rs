@@ -28,14 +28,14 @@ use self::batch::{Batch, MOST_BATCHES, RunFinish};
 use self::law_lanes::LawLanes;
 use self::root_search::RootSearch;
 use super::forcing::{ForcingShape, ForcingShapes};
-use super::run::SimulationRun;
+use super::run::{RunTerms, SimulationRun};
 use super::state::{RunResult, Stalled};
 
 /// Integrates runs in the lanes of `set`. The results are in the order of the runs.
 pub(super) fn side_by_side(
     set: InstructionSet,
     runs: Vec<SimulationRun<'_>>,
-    tolerance: f64,
+    terms: RunTerms,
 ) -> Vec<RunResult> {
     let mut outcomes = vec![Err(Stalled::NEVER_STARTED); runs.len()];
     let mut rest: Vec<(usize, SimulationRun<'_>)> = Vec::with_capacity(runs.len());
@@ -46,19 +46,24 @@ pub(super) fn side_by_side(
         }
     }
     while let Some((_, first)) = rest.first() {
-        let (law, shapes) = (first.belt.friction().clone(), shapes_of(first));
+        let (law, shapes) = (first.belt.friction().clone(), shapes_of(first, terms));
         let alike = |run: &SimulationRun<'_>| {
-            run.belt.friction().is_alike(&law) && shapes_of(run) == shapes
+            run.belt.friction().is_alike(&law) && shapes_of(run, terms) == shapes
         };
         let (group, others) = rest.into_iter().partition(|(_, run)| alike(run));
         rest = others;
-        law.visit(RunGroup { set, runs: group, shapes, tolerance, outcomes: &mut outcomes });
+        law.visit(RunGroup { set, runs: group, shapes, terms, outcomes: &mut outcomes });
     }
     outcomes
 }
 
-fn shapes_of(run: &SimulationRun<'_>) -> ForcingShapes {
-    let shape = |direction| ForcingShape::of(run.belt.dithers(), direction);
+fn shapes_of(run: &SimulationRun<'_>, terms: RunTerms) -> ForcingShapes {
+    let shape = |direction| match ForcingShape::of(run.belt.dithers(), direction) {
+        ForcingShape::Constant => ForcingShape::Constant,
+        // A branch that is kept is watched: each of its steps has its own series.
+        _ if terms.branch.is_some() => ForcingShape::Several,
+        shape => shape,
+    };
     (shape(Direction::Tangential), shape(Direction::Normal))
 }
 
@@ -67,7 +72,7 @@ struct RunGroup<'q, 'a> {
     set: InstructionSet,
     runs: Vec<(usize, SimulationRun<'a>)>,
     shapes: ForcingShapes,
-    tolerance: f64,
+    terms: RunTerms,
     outcomes: &'q mut [RunResult],
 }
 
@@ -90,9 +95,9 @@ impl<L: LawSeries> LaneWork for RunGroupOf<'_, '_, L> {
 
     #[inline(always)]
     fn run<V: Lane>(self) {
-        let RunGroup { set, runs, shapes, tolerance, outcomes } = self.group;
+        let RunGroup { set, runs, shapes, terms, outcomes } = self.group;
         let finish: &mut RunFinish<'_> = &mut |number, outcome| outcomes[number] = outcome;
-        drive::<V, L>(runs, set, shapes, tolerance, finish);
+        drive::<V, L>(runs, set, shapes, terms, finish);
     }
 }
 
@@ -104,7 +109,7 @@ fn drive<V: Lane, L: LawSeries>(
     runs: Vec<(usize, SimulationRun<'_>)>,
     set: InstructionSet,
     shapes: ForcingShapes,
-    tolerance: f64,
+    terms: RunTerms,
     finish: &mut RunFinish<'_>,
 ) {
     let count = runs.len().div_ceil(V::LANES).clamp(1, MOST_BATCHES);
@@ -115,7 +120,7 @@ fn drive<V: Lane, L: LawSeries>(
     loop {
         let mut occupied = 0;
         for (batch, laws) in batches.iter_mut().zip(&mut laws) {
-            if batch.fill(&mut queue, tolerance, finish) {
+            if batch.fill(&mut queue, terms, finish) {
                 laws.refresh(batch);
             }
             occupied += batch.occupied;

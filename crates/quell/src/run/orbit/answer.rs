@@ -408,7 +408,7 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
         inner
     });
     fields.list("contacts", contacts);
-    let [(low, high), (slow, fast)] = samples.extremes;
+    let [(low, high), (slow, fast)] = samples.extremes();
     fields
         .number("lowest", Quantity::Displacement, low)
         .number("highest", Quantity::Displacement, high)
