@@ -99,9 +99,10 @@ def test_check_modes_and_sources(hoffmann: quell.System, drive: quell.System) ->
     assert [it["frequency"] for it in modes.modes] == pytest.approx([1, 3**0.5], rel=1e-14)
     assert modes.dataset["shape_x"].dims == ("mode",)
     keys = [source["key"] for source in hoffmann.cite().sources]
-    assert keys == ["gelb1968", "hoffmann2002"]
+    assert keys == ["gelb1968", "jorba2005", "filippov1988", "harris1978", "menck2013", "wilson1927", "hoffmann2002"]
     keys = [source["key"] for source in drive.cite().sources]
-    assert keys == ["michaux2005", "thomsen1999", "gelb1968", "hairer1993"]
+    runs = ["jorba2005", "filippov1988", "harris1978", "menck2013", "wilson1927"]
+    assert keys == ["michaux2005", "thomsen1999", "cunefare2002", "gelb1968", *runs, "hairer1993"]
     assert "@book{hairer1993," in drive.cite().bibtex
 
 

@@ -28,7 +28,7 @@ impl Product {
     /// A figure of a belt; the caption is also drawn below the figure.
     pub fn new(figure: Figure, caption: impl Into<String>, study: &BeltStudy) -> Self {
         Self {
-            sources: cite::sources(study),
+            sources: cite::sources_of(&study.into()),
             ..Self::with_provenance(caption, study.text(), study.changes())
         }
         .drawn(figure)
@@ -42,7 +42,7 @@ impl Product {
     /// A table of a disc without a figure.
     pub(super) fn table_of_disc(caption: impl Into<String>, study: &DiscStudy) -> Self {
         Self {
-            sources: cite::sources_of_disc(study),
+            sources: cite::sources_of(&study.into()),
             ..Self::with_provenance(caption, study.text(), study.changes())
         }
     }
@@ -62,7 +62,7 @@ impl Product {
     #[must_use]
     pub fn also<'a>(mut self, studies: impl IntoIterator<Item = &'a BeltStudy>) -> Self {
         for study in studies {
-            self.sources.extend(&cite::sources(study));
+            self.sources.extend(&cite::sources_of(&study.into()));
         }
         self
     }

@@ -67,6 +67,18 @@ impl Fields {
         self.plain(name, Json::Null).why(name, why)
     }
 
+    /// Adds a value without unit, or null with the reason.
+    pub fn known_plain(
+        &mut self,
+        name: &str,
+        value: Result<impl Into<Json>, impl Into<String>>,
+    ) -> &mut Self {
+        match value {
+            Ok(value) => self.plain(name, value),
+            Err(why) => self.unknown(name, why),
+        }
+    }
+
     /// Adds a value, or an array of values, with its unit.
     pub fn measured(&mut self, name: &str, unit: &str, value: impl Into<Json>) -> &mut Self {
         self.units.insert(name.to_owned(), unit.into());
@@ -143,19 +155,13 @@ impl Fields {
     fn finite(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
         let finite =
             |value: f64| if value.is_finite() { Ok(value) } else { Err(beyond_range(value)) };
-        match value.and_then(finite) {
-            Ok(value) => self.plain(name, value),
-            Err(why) => self.unknown(name, why),
-        }
+        self.known_plain(name, value.and_then(finite))
     }
 
     /// Adds a growth rate in decibels per second, of a study in SI; or null with the reason.
     pub fn decibels(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
         self.units.insert(name.to_owned(), "dB/s".into());
-        match value {
-            Ok(value) => self.plain(name, value),
-            Err(why) => self.unknown(name, why),
-        }
+        self.known_plain(name, value)
     }
 
     /// Adds an object inside this one.

@@ -39,7 +39,7 @@ fn every_source_is_an_entry_with_its_title_and_year() {
         let (_, entry) = entry.unwrap_or_else(|| panic!("{} is not in references.bib", source.key));
         let title = field(entry, "title").expect("a title");
         let title = title.replace(['{', '}'], "").replace("--", "–").to_lowercase();
-        let printed = source.reference.to_lowercase();
+        let printed = source.reference().to_lowercase();
         assert!(printed.contains(&title), "{}: {title}", source.key);
         let year = field(entry, "year").expect("a year");
         assert!(printed.contains(year) && source.key.ends_with(year), "{}: {year}", source.key);

@@ -412,7 +412,7 @@ fn least_amplitudes_of_every_waveform() {
             "square" => 1.0,
             _ => (0.5 * row.duty_cycle).sqrt(),
         };
-        assert!((row.unit.root_mean_square / share - 1.0).abs() < 1e-9, "{row:?}");
+        assert!((row.waveform.root_mean_square() / share - 1.0).abs() < 1e-9, "{row:?}");
     }
     let json = found.json(&system);
     let rows = json["waveforms"].as_array().expect("rows");

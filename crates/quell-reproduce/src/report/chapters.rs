@@ -126,21 +126,12 @@ fn details(done: &WrittenEntry) -> String {
         .map(|name| format!("<a href=\"{0}\">{0}</a>", escape(name)))
         .collect();
     let sources = &done.product.sources;
-    let mut used: Vec<&str> = sources.citations.iter().map(|citation| citation.used).collect();
-    used.dedup();
-    let mut seen: Vec<&str> = Vec::new();
-    used.retain(|text| {
-        !seen.contains(text) && {
-            seen.push(text);
-            true
-        }
-    });
     let list = |items: &[String]| -> String {
         let items =
             items.iter().map(|item| format!("<li>{item}</li>")).collect::<Vec<String>>().concat();
         format!("<ul>{items}</ul>")
     };
-    let equations: Vec<String> = used.iter().map(|text| symbols(text)).collect();
+    let equations: Vec<String> = sources.uses().into_iter().map(symbols).collect();
     let corrections: Vec<String> = sources
         .corrections
         .iter()

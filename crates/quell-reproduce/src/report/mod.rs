@@ -53,7 +53,9 @@ fn sources(page: &mut HtmlPage, written: &[WrittenEntry]) {
     page.section("sources", "Sources");
     let items: Vec<String> = unique
         .iter()
-        .map(|source| format!("<li><code>{}</code> {}</li>", source.key, escape(source.reference)))
+        .map(|source| {
+            format!("<li><code>{}</code> {}</li>", source.key, escape(&source.reference()))
+        })
         .collect();
     page.put(&format!("<ul class=\"sources\">{}</ul>", items.concat()));
 }

@@ -56,7 +56,7 @@ pub(super) fn write(
         env!("CARGO_PKG_VERSION"),
         if resolution == Resolution::Quick { " --quick" } else { "" },
         title,
-        escape(MICHAUX_2005.reference),
+        escape(&MICHAUX_2005.reference()),
         extent(written, resolution),
     ));
     if claims.is_empty() {

@@ -26,14 +26,17 @@ pub enum Task {
 }
 
 impl Task {
-    /// Every task of a belt.
+    /// Every task, in the order in which its sources are listed.
     pub const ALL: &'static [Self] = &[
+        Self::Modes,
         Self::Friction,
         Self::Stability,
+        Self::Thresholds,
         Self::Simulate,
         Self::Response,
         Self::Bifurcation,
         Self::Basins,
+        Self::Resonances,
     ];
 
     /// Name of the verb.

@@ -1,10 +1,10 @@
 //! A correction of the printed text: the printed form, the correct form, the studies that it concerns, and the proof.
 
 use quell_model::disc::DiscDither;
-use quell_model::{Belt, Direction, LawKind};
+use quell_model::{Direction, LawKind};
 
 use super::citation::Task;
-use crate::study::DiscStudy;
+use super::cited_study::CitedStudy;
 use crate::study::disc::ModeSource;
 
 /// A correction of the printed text.
@@ -70,32 +70,25 @@ pub enum Proof {
     Reading,
 }
 
-/// Whether a belt has dither along a direction, and of a waveform if one is given.
-pub(super) fn has(belt: &Belt, direction: Direction, waveform: Option<&str>) -> bool {
-    belt.dithers_along(direction)
-        .any(|dither| waveform.is_none_or(|name| dither.waveform.name() == name))
-}
-
 impl Bears {
-    /// Whether this belt is concerned.
-    pub(super) fn on_belt(self, belt: &Belt) -> bool {
-        let Self::Belt { law, direction, waveform } = self else { return false };
-        law.is_none_or(|law| belt.friction().kind() == law)
-            && direction.is_none_or(|direction| has(belt, direction, waveform))
-    }
-
-    /// Whether this disc is concerned.
-    pub(super) fn on_disc(self, study: &DiscStudy) -> bool {
+    /// Whether this study is concerned.
+    pub(super) fn on(self, study: &CitedStudy) -> bool {
         match self {
+            Self::Belt { law, direction, waveform } => {
+                study.is_one_mass()
+                    && law.is_none_or(|law| study.has_law(law))
+                    && direction.is_none_or(|direction| study.has_dither(direction, waveform))
+            }
             Self::Disc(kind) => kind.is(study),
-            Self::Belt { .. } | Self::Nothing => false,
+            Self::Nothing => false,
         }
     }
 }
 
 impl DiscKind {
-    /// Whether the disc of a study is of this kind.
-    fn is(self, study: &DiscStudy) -> bool {
+    /// Whether a study is a disc of this kind.
+    pub(super) fn is(self, study: &CitedStudy) -> bool {
+        let Some(study) = study.disc() else { return false };
         match self {
             Self::Any => true,
             Self::ComputedModes => matches!(study.source(), ModeSource::Plate(_)),

@@ -37,7 +37,7 @@ pub fn markdown(root: &str) -> String {
     let mut page = format!(
         "# Errata\n\n{}.\n\n{OPENING}\nCompared with quadrature and correct as printed, {} equations: {}; those of chapter 4 in \
          their own terms, with α_T replaced by μ(v₀)α_N, and (3.44) and (4.34) with the brace that their reading lost.\n",
-        MICHAUX_2005.reference,
+        MICHAUX_2005.reference(),
         correct.len(),
         correct.join(", ")
     );

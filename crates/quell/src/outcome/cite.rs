@@ -23,7 +23,7 @@ impl<K> Presented<K> for Sources {
 fn table(found: &Sources) -> String {
     let mut text = String::new();
     for source in found.unique() {
-        let _ = writeln!(text, "[{}] {}", source.key, source.reference);
+        let _ = writeln!(text, "[{}] {}", source.key, source.reference());
         let mut uses: Vec<(&str, Vec<&str>)> = Vec::new();
         for citation in found.citations.iter().filter(|citation| citation.source == source) {
             match uses.iter_mut().find(|(used, _)| *used == citation.used) {

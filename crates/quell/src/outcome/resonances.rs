@@ -12,7 +12,7 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc::resonances::{
-    Clear, Explained, GrowingInterval, Order, Resonance, Resonances, THREE_WAVES, Verdict,
+    Clear, Explained, GrowingInterval, Order, Resonance, Resonances, THREE_WAVES, Verdict, named,
 };
 use crate::study::{DiscSetup, DiscStudy};
 
@@ -97,7 +97,7 @@ fn growing(study: &DiscStudy, done: &Resonances) -> String {
         let why = match explained {
             Explained::Wave => "a wave on its own".to_owned(),
             Explained::Pair { order, meeting } => {
-                format!("{} at {}", meeting.label(), in_words(*order))
+                format!("{} at {} order", meeting.label(), named(*order))
             }
             Explained::Not { nearest: Some(meeting) } => format!(
                 "{THREE_WAVES}; the nearest meeting is at {}, {}",
@@ -119,13 +119,6 @@ fn growing(study: &DiscStudy, done: &Resonances) -> String {
     text
 }
 
-fn in_words(order: Order) -> &'static str {
-    match order {
-        Order::First => "first order",
-        Order::Second => "second order",
-    }
-}
-
 /// The instability of the pair at a meeting, at the order of the theory.
 fn tongue(resonance: &Resonance, order: Order) -> String {
     match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
@@ -136,9 +129,9 @@ fn tongue(resonance: &Resonance, order: Order) -> String {
         (None, Some(growth)) => by_itself(growth),
         _ if resonance.pair_can_be_unstable() => match resonance.threshold {
             Some(threshold) => format!("tongue from f* = {} on", figure(threshold)),
-            None => format!("no tongue at this friction at {}", in_words(order)),
+            None => format!("no tongue at this friction at {} order", named(order)),
         },
-        _ => format!("no tongue at {}", in_words(order)),
+        _ => format!("no tongue at {} order", named(order)),
     }
 }
 

@@ -94,7 +94,7 @@ fn notes(done: &WaveformComparison, unit: Option<&str>) -> String {
     let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
     let of = |row: &ComparedWaveform| {
         let averaged = row.averaged.as_ref().err().cloned();
-        let power = row.unit.power.as_ref().err();
+        let power = row.unit.as_ref().err();
         let power = power.filter(|_| averaged.is_none());
         let power = power.map(|why| format!("no power, stroke and velocity: {why}"));
         // The same reason is said once.

@@ -7,7 +7,7 @@ use super::plan::amplitude_of;
 use crate::run::system::{frequency_in_words, in_units};
 use crate::study::disc::ModeSource;
 use crate::study::{DiscStudy, Study, SystemStudy};
-use crate::words::{digits, plural};
+use crate::words::{counted, digits};
 
 /// The most names that are written of a list.
 const MOST_NAMES: usize = 12;
@@ -31,16 +31,14 @@ fn of_disc(study: &DiscStudy) -> Vec<Unexamined> {
     let highest = modes.iter().map(|mode| mode.ratio).fold(0.0, f64::max);
     let left_out = match study.source() {
         ModeSource::Plate(plate) => format!(
-            "The model has {} mode{}: up to {} radial modes and {most} nodal diameters, up to the frequency ratio {}.",
-            modes.len(),
-            plural(u32::try_from(modes.len()).unwrap_or(u32::MAX)),
+            "The model has {}: up to {} radial modes and {most} nodal diameters, up to the frequency ratio {}.",
+            counted(modes.len(), "mode"),
             plate.radial_modes,
             digits(highest)
         ),
         _ => format!(
-            "The model has the {} listed mode{}, up to {most} nodal diameters and the frequency ratio {}.",
-            modes.len(),
-            plural(u32::try_from(modes.len()).unwrap_or(u32::MAX)),
+            "The model has the {}, up to {most} nodal diameters and the frequency ratio {}.",
+            counted(modes.len(), "listed mode"),
             digits(highest)
         ),
     };
@@ -94,9 +92,8 @@ fn of_system(study: &SystemStudy, answers: &[ReportedAnswer]) -> Vec<Unexamined>
         all.push(Unexamined::new(
             "Modes left out",
             format!(
-                "The model has {} mode{}, up to the angular frequency {}{dither}.",
-                names.len(),
-                plural(u32::try_from(names.len()).unwrap_or(u32::MAX)),
+                "The model has {}, up to the angular frequency {}{dither}.",
+                counted(names.len(), "mode"),
                 digits(highest)
             ),
         ));

@@ -21,9 +21,10 @@ mod page;
 mod parts;
 mod plan;
 
-use serde_json::{Value as Json, json};
+use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::fields::Fields;
 use crate::output::Output;
 use crate::run::sketch;
 use crate::study::{Kind, Study};
@@ -81,14 +82,14 @@ pub fn run_with_progress(
     let (mut answers, mut unexamined) = (Vec::new(), Vec::new());
     progress.begin(plan.len(), 0);
     for step in plan {
-        let plan::ReportStep { verb, heading, start, chosen, request: asked } = step;
+        let plan::ReportStep { verb, heading, start, chosen, ask } = step;
         if request.without.iter().any(|name| name == verb) {
             unexamined
                 .push(Unexamined::new(heading, format!("`{verb}` was left out by --without.")));
             progress.advance(1);
             continue;
         }
-        match plan::ask(&verbs, asked) {
+        match ask(&verbs) {
             Ok(outcome) => {
                 let facts = outcome.facts();
                 answers.push(ReportedAnswer { verb, heading, start, chosen, outcome, facts });
@@ -137,41 +138,28 @@ impl StudyReport {
     /// As JSON: what was asked, the sentence and facts of every verb, and what was not examined.
     pub fn json(&self) -> Json {
         let answers = self.answers.iter().map(|answer| {
-            json!({
-                "verb": answer.verb,
-                "heading": answer.heading,
-                "start": answer.start,
-                "chosen": answer.chosen,
-                "sentence": answer.outcome.sentence(),
-                "facts": answer.facts,
-            })
+            let chosen = answer.chosen.as_deref().ok_or("nothing was chosen for the report");
+            let mut inner = Fields::new(None);
+            inner
+                .plain("verb", answer.verb)
+                .plain("heading", answer.heading)
+                .plain("start", answer.start.as_str())
+                .known_plain("chosen", chosen)
+                .known_plain("sentence", answer.outcome.sentence().ok_or("the answer is a table"))
+                .plain("facts", answer.facts.clone());
+            inner
         });
-        let unexamined = self.unexamined.iter().map(Unexamined::json);
-        let mut object = json!({
-            "ok": true,
-            "title": self.study.title(),
-            "question": self.question,
-            "answers": answers.collect::<Vec<_>>(),
-            "not_examined": unexamined.collect::<Vec<_>>(),
-        });
-        let mut why = serde_json::Map::new();
-        if self.study.title().is_none() {
-            why.insert("title".to_owned(), "the study has no title".into());
-        }
-        for (place, answer) in self.answers.iter().enumerate() {
-            if answer.chosen.is_none() {
-                let path = format!("answers[{place}].chosen");
-                why.insert(path, "nothing was chosen for the report".into());
-            }
-            if answer.outcome.sentence().is_none() {
-                let path = format!("answers[{place}].sentence");
-                why.insert(path, "the answer is a table".into());
-            }
-        }
-        if !why.is_empty() {
-            object["why"] = why.into();
-        }
-        object
+        let mut fields = Fields::new(None);
+        fields
+            .plain("ok", true)
+            .known_plain("title", self.study.title().ok_or("the study has no title"))
+            .plain("question", self.question.as_str())
+            .list("answers", answers)
+            .plain(
+                "not_examined",
+                self.unexamined.iter().map(Unexamined::json).collect::<Vec<_>>(),
+            );
+        fields.finish()
     }
 
     /// Writes the page.

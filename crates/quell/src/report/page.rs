@@ -77,15 +77,9 @@ fn sketch(page: &mut HtmlPage, report: &StudyReport) {
 fn assumptions(page: &mut HtmlPage, report: &StudyReport) {
     page.section("assumptions", "Assumptions");
     let sources = cited(report);
-    let mut used: Vec<&str> = Vec::new();
-    for citation in &sources.citations {
-        if !used.contains(&citation.used) {
-            used.push(citation.used);
-        }
-    }
     let starts = report.answers.iter().map(|answer| format!("{}: {}", answer.verb, answer.start));
     page.put("<p>The answers use these equations and methods:</p>");
-    page.put(&list(used.iter().map(|text| symbols(text))));
+    page.put(&list(sources.uses().into_iter().map(symbols)));
     page.put("<p>Where each computation starts:</p>");
     page.put(&list(starts.map(|text| symbols(&text))));
     page.put(&warnings(&report.check.warnings()));
@@ -209,10 +203,9 @@ fn sources(page: &mut HtmlPage, report: &StudyReport) {
     page.section("sources", "Versions and sources");
     page.put(&format!("<p>Computed by Quell {}.</p>", env!("CARGO_PKG_VERSION")));
     let sources = cited(report);
-    let items = sources
-        .unique()
-        .into_iter()
-        .map(|source| format!("<code>{}</code> {}", escape(source.key), escape(source.reference)));
+    let items = sources.unique().into_iter().map(|source| {
+        format!("<code>{}</code> {}", escape(source.key), escape(&source.reference()))
+    });
     page.put(&list(items));
     if !sources.corrections.is_empty() {
         page.put("<p>Corrections of the printed equations that were applied:</p>");

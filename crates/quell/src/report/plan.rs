@@ -13,7 +13,7 @@ use crate::run::response::ResponseRequest;
 use crate::run::system::start::{StateNumbers, start_in_words};
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::varied::key_of;
-use crate::study::{DiscStudy, Study, SystemStudy};
+use crate::study::{Study, SystemStudy};
 use crate::sweep::Running;
 use crate::verbs::{Reply, Verbs};
 use crate::words::digits;
@@ -21,32 +21,24 @@ use crate::words::digits;
 /// The window of thresholds, in amplitudes of the study.
 const WINDOW: (f64, f64) = (0.1, 2.0);
 
-/// What a verb is asked.
-pub(super) enum ReportedVerb {
-    Modes,
-    Stability,
-    Response,
-    Orbit,
-    Friction,
-    Resonances,
-    Thresholds(ThresholdsRequest),
-    Design,
-    Actuator,
-    Probability,
-}
-
 /// A verb of the report.
 pub(super) struct ReportStep {
     pub(super) verb: &'static str,
     pub(super) heading: &'static str,
     pub(super) start: String,
     pub(super) chosen: Option<String>,
-    pub(super) request: ReportedVerb,
+    /// Asks the verb.
+    pub(super) ask: Box<dyn Fn(&Verbs) -> Reply>,
 }
 
 impl ReportStep {
-    fn new(verb: &'static str, heading: &'static str, start: &str, request: ReportedVerb) -> Self {
-        Self { verb, heading, start: start.to_owned(), chosen: None, request }
+    fn new(
+        verb: &'static str,
+        heading: &'static str,
+        start: &str,
+        ask: impl Fn(&Verbs) -> Reply + 'static,
+    ) -> Self {
+        Self { verb, heading, start: start.to_owned(), chosen: None, ask: Box::new(ask) }
     }
 }
 
@@ -54,12 +46,36 @@ const SMALL: &str = "small motions about steady sliding";
 const NO_START: &str = "none: no motion is computed";
 const BRANCH: &str = "the base response, continued from steady sliding";
 
-/// The verbs that a study of this kind has, in the order of the report.
+/// The verbs that a study has, in the order of the report.
 pub(super) fn planned(study: &Study) -> Vec<ReportStep> {
-    match study.disc() {
-        Ok(disc) => of_disc(&disc),
-        Err(_) => of_system(study, &study.system()),
+    let stability = "Stability of steady sliding";
+    let mut steps = vec![
+        ReportStep::new("stability", stability, SMALL, Verbs::stability),
+        ReportStep::new("modes", "Natural frequencies", NO_START, Verbs::modes),
+    ];
+    if let Ok(disc) = study.disc() {
+        let heading = "Speeds at which waves meet";
+        steps.push(ReportStep::new("resonances", heading, SMALL, |verbs| {
+            verbs.resonances(ResonancesRequest::default())
+        }));
+        // The exponents of small motions decide about a disc.
+        steps.extend(disc.design().filter(|_| is_dithered(study)).map(|_| design(SMALL)));
+    } else {
+        steps.extend(of_system(study, &study.system()));
     }
+    if study.uncertainty().is_some() {
+        steps.push(ReportStep::new(
+            "probability",
+            "How probable the vibration is",
+            SMALL,
+            probability,
+        ));
+    }
+    if study.disc().is_err() {
+        let ask = |verbs: &Verbs| verbs.friction(None, false);
+        steps.push(ReportStep::new("friction", "Friction law", NO_START, ask));
+    }
+    steps
 }
 
 /// Whether a dither acts.
@@ -70,35 +86,16 @@ pub(super) fn is_dithered(study: &Study) -> bool {
     }
 }
 
-fn of_disc(study: &DiscStudy) -> Vec<ReportStep> {
-    let mut steps = vec![
-        ReportStep::new("stability", "Stability of steady sliding", SMALL, ReportedVerb::Stability),
-        ReportStep::new("modes", "Natural frequencies", NO_START, ReportedVerb::Modes),
-        ReportStep::new(
-            "resonances",
-            "Speeds at which waves meet",
-            SMALL,
-            ReportedVerb::Resonances,
-        ),
-    ];
-    let dithered = study.disc().dither().frequency_ratio().is_some();
-    // The exponents of small motions decide about a disc.
-    let asked = questions(Questions {
-        design: dithered && study.design().is_some(),
-        actuator: false,
-        probability: study.uncertainty().is_some(),
-    });
-    steps.extend(asked.map(|step| ReportStep { start: SMALL.to_owned(), ..step }));
-    steps
-}
-
+/// The verbs of a belt or a system about its motions and its dither.
 fn of_system(declared: &Study, study: &SystemStudy) -> Vec<ReportStep> {
     let start = &start_in_words(study, &StateNumbers::new());
     let mut steps = vec![
-        ReportStep::new("stability", "Stability of steady sliding", SMALL, ReportedVerb::Stability),
-        ReportStep::new("modes", "Natural frequencies", NO_START, ReportedVerb::Modes),
-        ReportStep::new("response", "Steady response", start, ReportedVerb::Response),
-        ReportStep::new("orbit", "Periodic response", BRANCH, ReportedVerb::Orbit),
+        ReportStep::new("response", "Steady response", start, |verbs| {
+            verbs.response(&ResponseRequest::default())
+        }),
+        ReportStep::new("orbit", "Periodic response", BRANCH, |verbs| {
+            verbs.orbit(&Wanted::default())
+        }),
     ];
     let inputs = &study.system().inputs;
     for (place, input) in inputs.iter().enumerate() {
@@ -107,13 +104,23 @@ fn of_system(declared: &Study, study: &SystemStudy) -> Vec<ReportStep> {
         let room = room_for(study.system(), input);
         steps.extend(thresholds(&key_of(declared, &path), amplitude, room));
     }
-    steps.extend(questions(Questions {
-        design: !inputs.is_empty() && study.design().is_some(),
-        actuator: !inputs.is_empty() && study.actuator().is_some(),
-        probability: study.uncertainty().is_some(),
-    }));
-    steps.push(ReportStep::new("friction", "Friction law", NO_START, ReportedVerb::Friction));
+    if !inputs.is_empty() {
+        steps.extend(study.design().map(|_| design(BRANCH)));
+        let ask = |verbs: &Verbs| verbs.actuator(None);
+        let actuator = ReportStep::new("actuator", "What the actuator can give", SMALL, ask);
+        steps.extend(study.actuator().map(|_| actuator));
+    }
     steps
+}
+
+fn design(start: &str) -> ReportStep {
+    let heading = "The least dither over the operating points";
+    ReportStep::new("design", heading, start, Verbs::design)
+}
+
+fn probability(verbs: &Verbs) -> Reply {
+    let (stop, request) = (AtomicBool::new(false), ProbabilityRequest::default());
+    verbs.probability(request, Running { threads: None, stop: &stop, progress: &() })
 }
 
 /// The amplitude of an input: that of its largest wave.
@@ -134,35 +141,6 @@ fn room_for(system: &System, input: &Input) -> f64 {
     }
 }
 
-/// The tables of a study that ask a question.
-#[derive(Clone, Copy)]
-struct Questions {
-    design: bool,
-    actuator: bool,
-    probability: bool,
-}
-
-/// The verbs that answer them.
-fn questions(asked: Questions) -> impl Iterator<Item = ReportStep> {
-    let design = ReportStep::new(
-        "design",
-        "The least dither over the operating points",
-        BRANCH,
-        ReportedVerb::Design,
-    );
-    let actuator =
-        ReportStep::new("actuator", "What the actuator can give", SMALL, ReportedVerb::Actuator);
-    let probability = ReportStep::new(
-        "probability",
-        "How probable the vibration is",
-        SMALL,
-        ReportedVerb::Probability,
-    );
-    let all =
-        [(asked.design, design), (asked.actuator, actuator), (asked.probability, probability)];
-    all.into_iter().filter_map(|(wanted, step)| wanted.then_some(step))
-}
-
 /// Thresholds of an amplitude between a tenth and twice its value, or up to the largest that the contact allows; none of an
 /// amplitude that is 0.
 fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<ReportStep> {
@@ -176,27 +154,8 @@ fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<ReportStep> {
     let request =
         ThresholdsRequest { parameter, window: (from, to), ..ThresholdsRequest::default() };
     let heading = "Amplitudes that change the outcome";
-    let mut step =
-        ReportStep::new("thresholds", heading, BRANCH, ReportedVerb::Thresholds(request));
+    let ask = move |verbs: &Verbs| verbs.thresholds(&request);
+    let mut step = ReportStep::new("thresholds", heading, BRANCH, ask);
     step.chosen = Some(format!("`{path}` from {} to {}", digits(from), digits(to)));
     Some(step)
-}
-
-/// The answer of a verb.
-pub(super) fn ask(verbs: &Verbs, asked: ReportedVerb) -> Reply {
-    match asked {
-        ReportedVerb::Modes => verbs.modes(),
-        ReportedVerb::Stability => verbs.stability(),
-        ReportedVerb::Response => verbs.response(&ResponseRequest::default()),
-        ReportedVerb::Orbit => verbs.orbit(&Wanted::default()),
-        ReportedVerb::Friction => verbs.friction(None, false),
-        ReportedVerb::Resonances => verbs.resonances(ResonancesRequest::default()),
-        ReportedVerb::Thresholds(request) => verbs.thresholds(&request),
-        ReportedVerb::Design => verbs.design(),
-        ReportedVerb::Actuator => verbs.actuator(None),
-        ReportedVerb::Probability => {
-            let (stop, request) = (AtomicBool::new(false), ProbabilityRequest::default());
-            verbs.probability(request, Running { threads: None, stop: &stop, progress: &() })
-        }
-    }
 }

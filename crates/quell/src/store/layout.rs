@@ -159,7 +159,7 @@ fn references(plan: &Plan) -> String {
     let cited: Vec<String> = citations
         .iter()
         .filter(|citation| used(citation.task))
-        .map(|citation| format!("{}: {}", citation.source.reference, citation.used))
+        .map(|citation| format!("{}: {}", citation.source.reference(), citation.used))
         .collect();
     cited.join("\n")
 }

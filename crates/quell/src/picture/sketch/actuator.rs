@@ -94,32 +94,23 @@ pub(super) fn key(actuator: &Actuator, words: &dyn Fn(Quantity, f64) -> String) 
     let plain = |symbol: &str, value: Option<f64>, unit: &str| {
         value.map(|value| format!("${symbol}$ ≤ {} {unit}", digits(value)))
     };
-    let items: Vec<String> = match actuator {
-        Actuator::Piezo(stack) => [
+    let items = match actuator {
+        Actuator::Piezo(stack) => vec![
             Some(force("F_b", stack.blocked_force)),
             plain("U", stack.maximum_voltage, "V"),
             plain("I", stack.maximum_current, "A"),
-        ]
-        .into_iter()
-        .flatten()
-        .collect(),
-        Actuator::VoiceCoil(coil) | Actuator::Motor(coil) => [
+        ],
+        Actuator::VoiceCoil(coil) | Actuator::Motor(coil) => vec![
             Some(format!("$K_f$ = {}", words(Quantity::ForcePerCurrent, coil.force_per_ampere))),
             plain("I_{rms}", coil.rms_current, "A"),
             plain("I", coil.maximum_current, "A"),
             plain("U", coil.maximum_voltage, "V"),
-        ]
-        .into_iter()
-        .flatten()
-        .collect(),
-        Actuator::Measured(measured) => [
+        ],
+        Actuator::Measured(measured) => vec![
             plain("U", measured.maximum_voltage, "V"),
             plain("I", measured.maximum_current, "A"),
             plain("I_{rms}", measured.rms_current, "A"),
-        ]
-        .into_iter()
-        .flatten()
-        .collect(),
+        ],
     };
-    SketchKey::new(capital(actuator.kind().in_words()), items)
+    SketchKey::new(capital(actuator.kind().in_words()), items.into_iter().flatten())
 }

@@ -6,8 +6,8 @@ use quell_model::{Direction, Profile};
 
 use super::actuator;
 use super::contact_state::StateMark;
-use super::symbols::{glyph, index, indexed, item, number};
-use crate::noise::{band_in_words, lines_in_words};
+use super::symbols::{glyph, index, indexed, item, law_items, number, wave_items};
+use crate::noise::band_in_words;
 use crate::picture::ruler::words;
 use crate::plot::{LabelSide, Sketch, SketchInk, SketchKey, SketchPart, SketchShape};
 use crate::study::BeltStudy;
@@ -185,16 +185,12 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
             )
         }
     };
-    let law = belt.friction().kind();
+    let in_words = |quantity, value| words(study, quantity, value);
     let mut friction = vec![
         over_time(letters.load, Quantity::Force, belt.normal_load(), belt.load()),
         over_time(letters.velocity, Quantity::Velocity, belt.belt_velocity(), belt.drive()),
-        format!("$T$ by the law “{}”", law.name()),
     ];
-    let numbers = law.parameters().iter().zip(belt.friction().values());
-    friction.extend(
-        numbers.map(|(parameter, value)| equal(parameter.symbol, parameter.quantity, value)),
-    );
+    friction.extend(law_items(belt.friction(), "$T$", in_words));
     let Parameter { symbol, quantity, .. } = TANGENTIAL_STIFFNESS;
     friction.extend(belt.tangential_stiffness().map(|value| equal(symbol, quantity, value)));
     let mut sheet =
@@ -207,7 +203,6 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
             equal(&bare(letters.force), Quantity::Force, dither.amplitude),
             match dither.waveform.noise() {
                 Some(noise) => {
-                    let in_words = |quantity, value| words(study, quantity, value);
                     let band = band_in_words(noise, dither.frequency_ratio, in_words);
                     format!("${}$ = {band}", bare(letters.rate))
                 }
@@ -216,19 +211,12 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
                 }
             },
         ];
-        items.extend(dither.waveform.noise().map(lines_in_words));
-        if dither.envelope.is_some() {
-            items.push("times its envelope".to_owned());
-        }
-        if dither.phase != 0.0 {
-            items.push(format!("$φ$ = {} rad", number(dither.phase)));
-        }
+        items.extend(wave_items(&dither.waveform, dither.envelope.is_some(), dither.phase));
         let head = format!("{} {} dither", dither.direction.name(), dither.waveform.name());
         sheet = sheet.with_key(SketchKey::new(crate::words::capital(&head), items));
     }
     if let Some(given) = study.kind().system().actuator() {
-        sheet =
-            sheet.with_key(actuator::key(given, &|quantity, value| words(study, quantity, value)));
+        sheet = sheet.with_key(actuator::key(given, &in_words));
     }
     sheet
 }

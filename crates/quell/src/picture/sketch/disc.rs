@@ -9,11 +9,11 @@ use quell_model::parameter::disc::{
 use quell_model::profile::Profile;
 
 use super::disc_load::{SECTION_WIDTH, section};
-use super::symbols::{index, indexed, number};
+use super::symbols::{further, index, indexed, law_items, measured, number, wave_items};
 use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchKey, SketchPart, SketchShape};
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
-use crate::words::{capital, plural};
+use crate::words::{capital, counted};
 
 /// Outer radius of the disc in plan.
 const RADIUS: f64 = 54.0;
@@ -105,7 +105,7 @@ fn plan(sheet: Sketch, study: &DiscStudy) -> Sketch {
 fn key(sheet: Sketch, study: &DiscStudy) -> Sketch {
     let disc = study.disc();
     let modes = disc.modes().len();
-    let mut plate = vec![format!("{modes} mode{}", plural_of(modes))];
+    let mut plate = vec![counted(modes, "mode")];
     match study.source() {
         ModeSource::Plate(source) => {
             plate.push(format!("$b$/$a$ = {}", number(source.plate.inner_radius_ratio())));
@@ -116,7 +116,7 @@ fn key(sheet: Sketch, study: &DiscStudy) -> Sketch {
     let lowest = disc.modes().iter().map(|mode| mode.ratio).fold(f64::INFINITY, f64::min);
     plate.push(format!("lowest $β$ = {}", number(lowest)));
     if let Some(hertz) = study.reference_hz() {
-        plate.push(format!("unit of frequency {}", super::symbols::measured(hertz, Some("Hz"))));
+        plate.push(format!("unit of frequency {}", measured(hertz, Some("Hz"))));
     }
     let moving = if disc.is_stiffened() { "disc rotates, loads at rest" } else { "loads rotate" };
     let speed = match disc.drive().map(Profile::bounds) {
@@ -136,17 +136,9 @@ fn key(sheet: Sketch, study: &DiscStudy) -> Sketch {
         };
         sheet = sheet.with_key(SketchKey::new(head, load_items(study, place, load)));
     }
-    if loads.len() > MOST_LOADS {
-        let more = loads.len() - MOST_LOADS;
-        let words = format!("{more} further load{}", plural_of(more));
-        sheet = sheet.with_key(SketchKey::new(words, Vec::<String>::new()));
-    }
+    sheet = further(sheet, loads.len(), MOST_LOADS, "load");
     if let Some(law) = disc.law() {
-        let numbers = law.kind().parameters().iter().zip(law.values());
-        let mut items = vec![format!("$T$ by the law “{}”", law.kind().name())];
-        items.extend(
-            numbers.map(|(known, value)| format!("${}$ = {}", known.symbol, number(value))),
-        );
+        let items = law_items(law, "$T$", |_, value| number(value));
         sheet = sheet.with_key(SketchKey::new("Friction", items));
     }
     if let DiscDither::Normal { amplitude, frequency_ratio }
@@ -161,9 +153,7 @@ fn key(sheet: Sketch, study: &DiscStudy) -> Sketch {
             format!("$α$ = {}", number(amplitude)),
             format!("$R$ = {}", number(frequency_ratio)),
         ];
-        if disc.envelope().is_some() {
-            items.push("times its envelope".to_owned());
-        }
+        items.extend(wave_items(disc.waveform(), disc.envelope().is_some(), 0.0));
         sheet = sheet.with_key(SketchKey::new(head, items));
     }
     let without = study.without();
@@ -178,16 +168,16 @@ fn load_items(study: &DiscStudy, place: usize, load: &Load) -> Vec<String> {
     let count = study.disc().loads().len();
     let numbered = index(place, count);
     let scales = study.scales(place);
-    let item = |letter: &str, parameter: Parameter, value: f64| {
+    let written = |parameter: Parameter, value: f64| {
         let quantity = parameter.quantity;
         let si = scales.and_then(|scales| scales.si_per_unit(quantity)).zip(quantity.si_unit());
-        let symbol = indexed(letter, &numbered);
         match si {
-            Some((per_unit, (unit, _))) => {
-                super::symbols::item(&symbol, value * per_unit, Some(unit))
-            }
-            None => super::symbols::item(&symbol, value, None),
+            Some((per_unit, (unit, _))) => measured(value * per_unit, Some(unit)),
+            None => number(value),
         }
+    };
+    let item = |letter: &str, parameter: Parameter, value: f64| {
+        format!("{} = {}", indexed(letter, &numbered), written(parameter, value))
     };
     let mut items = vec![
         item("m", LOAD_MASS, load.mass),
@@ -211,9 +201,7 @@ fn load_items(study: &DiscStudy, place: usize, load: &Load) -> Vec<String> {
         let values = [body.mass, body.damping, body.stiffness];
         for ((letter, parameter), value) in letters.into_iter().zip(values) {
             // The letter has an index of its own; the heading says which load it is.
-            let written =
-                item("", parameter, value).split_once(" = ").map(|(_, rest)| rest.to_owned());
-            items.push(format!("${letter}$ = {}", written.unwrap_or_default()));
+            items.push(format!("${letter}$ = {}", written(parameter, value)));
         }
     }
     if let Some(Some(radius)) = study.radii().get(place) {
@@ -229,8 +217,4 @@ fn load_items(study: &DiscStudy, place: usize, load: &Load) -> Vec<String> {
         items.push(format!("$φ$ = {}°", number(load.dither_phase.to_degrees())));
     }
     items
-}
-
-fn plural_of(count: usize) -> &'static str {
-    plural(u32::try_from(count).unwrap_or(u32::MAX))
 }

@@ -1,9 +1,12 @@
-//! Symbols with numbers, and their values, as texts of a sketch.
+//! Symbols with numbers, and their values, as texts and items of a sketch.
 
-use quell_model::Waveform;
 use quell_model::digits::digits;
+use quell_model::units::Quantity;
+use quell_model::{Friction, Waveform};
 
-use crate::plot::WaveGlyph;
+use crate::noise::lines_in_words;
+use crate::plot::{Sketch, SketchKey, WaveGlyph};
+use crate::words::counted;
 
 /// Significant digits of a value in a key.
 const DIGITS: usize = 4;
@@ -69,6 +72,36 @@ pub(super) fn measured(value: f64, unit: Option<&str>) -> String {
         Some((prefix, size)) => format!("{} {prefix}{unit}", number(value / size)),
         None => format!("{} {unit}", number(value)),
     }
+}
+
+/// Adds how many things of a key have no row, where only `most` of them have one.
+pub(super) fn further(sheet: Sketch, count: usize, most: usize, noun: &str) -> Sketch {
+    if count <= most {
+        return sheet;
+    }
+    let words = counted(count - most, &format!("further {noun}"));
+    sheet.with_key(SketchKey::new(words, Vec::<String>::new()))
+}
+
+/// The law of a contact with its numbers, each of which `written` writes with its unit.
+pub(super) fn law_items(
+    law: &Friction,
+    force: &str,
+    written: impl Fn(Quantity, f64) -> String,
+) -> Vec<String> {
+    let numbers = law.kind().parameters().iter().zip(law.values());
+    let numbers = numbers
+        .map(|(known, value)| format!("${}$ = {}", known.symbol, written(known.quantity, value)));
+    let name = format!("{force} by the law “{}”", law.kind().name());
+    [name].into_iter().chain(numbers).collect()
+}
+
+/// What a wave has in addition to amplitude and frequency: lines of noise, an envelope, a phase.
+pub(super) fn wave_items(waveform: &Waveform, has_envelope: bool, phase: f64) -> Vec<String> {
+    let noise = waveform.noise().map(lines_in_words);
+    let envelope = has_envelope.then(|| "times its envelope".to_owned());
+    let phase = (phase != 0.0).then(|| format!("$φ$ = {} rad", number(phase)));
+    [noise, envelope, phase].into_iter().flatten().collect()
 }
 
 /// The terms of a sum such as `motor − 0.5 carriage` of a row over names, each with its sign; at most this many are written.

@@ -22,6 +22,9 @@ const NOTHING_TO_QUENCH: &str = "steady sliding is stable without this dither";
 /// Why the margin has no value at an undamped resonance.
 const UNBOUNDED_MARGIN: &str = "unbounded (undamped resonance)";
 
+/// Why no limit binds where the largest amplitude has no value.
+const UNKNOWN_AMPLITUDE: &str = "the largest amplitude is unknown there";
+
 /// Margin above which rounding decides it: no structure with damping has a quality factor near it, and an undamped one at its natural
 /// frequency, rounded, answers with about the inverse of the machine precision. A smaller bound would hide margins that are real.
 const MOST_MARGIN: f64 = 1e9;
@@ -246,10 +249,8 @@ impl ActuatorFound {
                 Quantity::FrequencyRatio,
                 band.ends.1,
             );
-            match band.limit {
-                Some(limit) => inner.plain("limit", limit.path()),
-                None => inner.unknown("limit", self.why_unknown(band.ends)),
-            };
+            let limit = band.limit.ok_or_else(|| self.why_unknown(band.ends));
+            inner.known_plain("limit", limit.map(ActuatorLimit::path));
             inner
         });
         fields.list("binding", binding.collect::<Vec<_>>());
@@ -257,10 +258,7 @@ impl ActuatorFound {
             let mut inner = study.fields();
             inner.number("frequency", Quantity::FrequencyRatio, at);
             for (name, limit) in ["below", "above"].into_iter().zip(limits) {
-                match limit {
-                    Some(limit) => inner.plain(name, limit.path()),
-                    None => inner.unknown(name, "the largest amplitude is unknown there"),
-                };
+                inner.known_plain(name, limit.map(ActuatorLimit::path).ok_or(UNKNOWN_AMPLITUDE));
             }
             inner
         });
@@ -280,7 +278,7 @@ impl ActuatorFound {
         let inside =
             |point: &&ActuatorAtFrequency| from <= point.frequency && point.frequency <= to;
         let why = self.coverage.points.iter().filter(inside).find_map(|point| point.reach().err());
-        why.unwrap_or_else(|| "the largest amplitude is unknown there".to_owned())
+        why.unwrap_or_else(|| UNKNOWN_AMPLITUDE.to_owned())
     }
 
     fn band_fields(&self, study: &SystemStudy, band: &SufficientBand) -> Fields {
@@ -302,10 +300,7 @@ impl ActuatorFound {
             Quantity::Force,
             reach.clone().map(|reach| reach.amplitude),
         );
-        match &reach {
-            Ok(reach) => inner.plain("limit", reach.limit.path()),
-            Err(why) => inner.unknown("limit", why.as_str()),
-        };
+        inner.known_plain("limit", reach.map(|reach| reach.limit.path()));
         let unbounded =
             unbounded || at.margin().is_ok_and(|margin| margin > MOST_MARGIN && margin.is_finite());
         let bounded = if unbounded { Err(UNBOUNDED_MARGIN.to_owned()) } else { Ok(()) };

@@ -13,7 +13,7 @@ use quell_design::least_dither::{DesignStart, OperatingPoint, Plant, SystemPlant
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
 use quell_model::parameter::BELT_VELOCITY;
-use quell_model::profile::{Profile, Wave};
+use quell_model::profile::Wave;
 use quell_model::{Contact, System, Waveform};
 use quell_numerics::order::{ascending, ascending_by};
 use serde_json::Value as Json;
@@ -22,7 +22,8 @@ pub(crate) use demand::{
     beyond_actuator, demand_fields, warning_about_samples, warnings_about_actuator,
 };
 
-use super::system::{self, has_equations};
+use super::design::with_wave;
+use super::system::{self, checked_frequencies, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::refused_where_averaged;
 use crate::parallel::Parallel;
@@ -35,26 +36,6 @@ const SAMPLES: usize = 401;
 
 /// The default range in multiples of the study's own frequency.
 const DEFAULT_RANGE: (f64, f64) = (0.1, 10.0);
-
-/// What the requirement and the reach depend on, for one study.
-struct ActuatorQuestion<'a> {
-    /// The actuator.
-    actuator: &'a Actuator,
-    /// The structure, whose other design variable is the frequency of the dither.
-    plant: &'a (dyn Plant + Sync),
-    /// The waveform of the dither.
-    waveform: Waveform,
-    /// The table of the dither, such as `dither` or `dither[1]`.
-    dither: String,
-    /// Frequency and amplitude of the study.
-    own: (f64, f64),
-    /// The frequency of the vibration that is to be quenched, or of the least damped motion.
-    slow: Option<f64>,
-    /// Natural frequencies of the structure.
-    resonances: Vec<f64>,
-    /// Names of the contacts with the speed of their surface.
-    contacts: Vec<(String, f64)>,
-}
 
 /// An actuator over frequency.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,23 +85,48 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFou
     };
     let linear = Linearised::new(system).map_err(failed)?;
     let found = spectrum(&linear, &linear.friction()).map_err(failed)?;
-    let at = |place: OperatingPoint<'_>, amplitude: f64| -> Result<System, String> {
-        Ok(with_dither(system, input, amplitude, place.others.first().copied()))
+    let with = |place: OperatingPoint<'_>, amplitude: f64| -> Result<System, String> {
+        Ok(with_wave(system.clone(), input, |wave| {
+            let frequency = place.others.first().copied().unwrap_or(wave.frequency);
+            Wave { amplitude, frequency, ..wave.clone() }
+        }))
     };
-    let plant = SystemPlant { at: &at, input, observe: &[], start: DesignStart::Local };
+    let plant = SystemPlant { at: &with, input, observe: &[], start: DesignStart::Local };
+    let at = |frequency: f64| {
+        let place = OperatingPoint { point: &[], others: &[frequency] };
+        ActuatorAtFrequency {
+            frequency,
+            demand: plant.demand(place, actuator),
+            slips: plant.slip_amplitudes(place),
+            needed: plant.least_averaged(place),
+        }
+    };
+    let slow = slowest_to_decay(&found);
+    let range = range.unwrap_or_else(|| default_range(actuator, wave, slow));
+    let range = checked_frequencies(range)?;
+    let resonances: Vec<f64> = oscillating(&found).map(SmallMotion::frequency).collect();
+    let special = resonances.iter().chain(actuator.measured_frequencies()).chain([&wave.frequency]);
+    let frequencies = sampled(range, special.copied());
+    let samples: Vec<ActuatorAtFrequency> =
+        frequencies.in_parallel(|frequency| at(*frequency)).collect();
+    if let Some(why) = unknown_everywhere(&samples) {
+        return Err(failed(why));
+    }
+    let coverage = coverage(without_poles(samples, &resonances), &at);
+    let own = at(wave.frequency);
     let speed = |contact: &Contact| contact.surface_velocity.mean().abs();
     let contacts = system.contacts.iter();
-    let question = ActuatorQuestion {
-        actuator,
-        plant: &plant,
+    Ok(ActuatorFound {
+        notable: notable(&coverage, &own, range, &at),
+        coverage,
+        own,
+        own_amplitude: wave.amplitude,
+        range,
         waveform: wave.waveform.clone(),
         dither: table_of(input, system.inputs.len()),
-        own: (wave.frequency, wave.amplitude),
-        slow: slowest_to_decay(&found),
-        resonances: oscillating(&found).map(SmallMotion::frequency).collect(),
+        slow,
         contacts: contacts.map(|contact| (contact.name.clone(), speed(contact))).collect(),
-    };
-    question.answer(range)
+    })
 }
 
 /// The actuator of a study that has one, and a dither.
@@ -165,19 +171,6 @@ fn table_of(input: usize, count: usize) -> String {
     if count > 1 { format!("dither[{input}]") } else { "dither".to_owned() }
 }
 
-/// The system with an amplitude and a frequency of one dither.
-fn with_dither(system: &System, input: usize, amplitude: f64, frequency: Option<f64>) -> System {
-    let mut system = system.clone();
-    if let Some(input) = system.inputs.get_mut(input)
-        && let [wave] = input.profile.waves()
-    {
-        let frequency = frequency.unwrap_or(wave.frequency);
-        let wave = Wave { amplitude, frequency, ..wave.clone() };
-        input.profile = Profile::constant(input.profile.mean()).with(wave);
-    }
-    system
-}
-
 /// The small motions that oscillate.
 fn oscillating(found: &MotionSpectrum) -> impl Iterator<Item = &SmallMotion> {
     found.motions.iter().filter(|motion| motion.eigenvalue.im > 0.0)
@@ -194,96 +187,39 @@ fn failed(why: impl std::fmt::Display) -> Failure {
     system::failed("actuator", why)
 }
 
-/// The complaint about a range of frequencies.
-fn wrong_range((from, to): (f64, f64), allowed: &str) -> Failure {
-    Complaint::option("--frequency", format!("{from}:{to}"), allowed.to_owned()).into()
+/// The measured range of a frequency response; else around the study's own frequency, above the vibration itself.
+fn default_range(actuator: &Actuator, wave: &Wave, slow: Option<f64>) -> (f64, f64) {
+    let measured = actuator.measured_frequencies();
+    if let [first, .., last] = measured {
+        return (*first, *last);
+    }
+    let own = wave.frequency;
+    let slow = slow.map_or(0.0, |slow| slow * f64::from(wave.waveform.cycles()));
+    let from = if own > FAR * slow {
+        f64::max(DEFAULT_RANGE.0 * own, FAR * slow)
+    } else if own > slow {
+        // Halfway from the vibration to a dither that is hardly faster.
+        libm::sqrt(slow * own)
+    } else {
+        DEFAULT_RANGE.0 * own
+    };
+    (from, DEFAULT_RANGE.1 * own)
 }
 
-impl ActuatorQuestion<'_> {
-    /// The answer over a range of frequencies.
-    ///
-    /// # Errors
-    /// A complaint about the range; a dither whose demand is unknown at every frequency.
-    fn answer(self, range: Option<(f64, f64)>) -> Result<ActuatorFound, Failure> {
-        let (from, to) = range.unwrap_or_else(|| self.default_range());
-        if !(from > 0.0 && to > from && to.is_finite()) {
-            return Err(wrong_range(
-                (from, to),
-                "two positive numbers, the second above the first",
-            ));
-        }
-        let at = |frequency: f64| self.at(frequency);
-        let frequencies = self.frequencies((from, to));
-        let samples: Vec<ActuatorAtFrequency> =
-            frequencies.in_parallel(|frequency| at(*frequency)).collect();
-        if let Some(why) = unknown_everywhere(&samples) {
-            return Err(failed(why));
-        }
-        let samples = without_poles(samples, &self.resonances);
-        let found = coverage(samples, &at);
-        let own = self.at(self.own.0);
-        let notable = notable(&found, &own, (from, to), &at);
-        Ok(ActuatorFound {
-            coverage: found,
-            notable,
-            own,
-            own_amplitude: self.own.1,
-            range: (from, to),
-            waveform: self.waveform,
-            dither: self.dither,
-            slow: self.slow,
-            contacts: self.contacts,
-        })
-    }
-
-    /// What is known at one frequency.
-    fn at(&self, frequency: f64) -> ActuatorAtFrequency {
-        let others = [frequency];
-        let place = OperatingPoint { point: &[], others: &others };
-        ActuatorAtFrequency {
-            frequency,
-            demand: self.plant.demand(place, self.actuator),
-            slips: self.plant.slip_amplitudes(place),
-            needed: self.plant.least_averaged(place),
-        }
-    }
-
-    /// The measured range of a frequency response; else around the study's own frequency, above the vibration itself.
-    fn default_range(&self) -> (f64, f64) {
-        let measured = self.actuator.measured_frequencies();
-        if let [first, .., last] = measured {
-            return (*first, *last);
-        }
-        let own = self.own.0;
-        let slow = self.slow.map_or(0.0, |slow| slow * f64::from(self.waveform.cycles()));
-        let from = if own > FAR * slow {
-            f64::max(DEFAULT_RANGE.0 * own, FAR * slow)
-        } else if own > slow {
-            // Halfway from the vibration to a dither that is hardly faster.
-            libm::sqrt(slow * own)
-        } else {
-            DEFAULT_RANGE.0 * own
-        };
-        (from, DEFAULT_RANGE.1 * own)
-    }
-
-    /// The frequencies of the samples.
-    fn frequencies(&self, (from, to): (f64, f64)) -> Vec<f64> {
-        let ratio = libm::log(to / from);
-        let last = SAMPLES - 1;
-        let even = (0..SAMPLES).map(|k| match k {
-            0 => from,
-            k if k == last => to,
-            k => from * libm::exp(ratio * k as f64 / last as f64),
-        });
-        let measured = self.actuator.measured_frequencies().iter();
-        let special = self.resonances.iter().chain(measured).chain([&self.own.0]).copied();
-        let special = special.filter(|frequency| from < *frequency && *frequency < to);
-        let mut frequencies: Vec<f64> = even.chain(special).collect();
-        ascending(&mut frequencies);
-        frequencies.dedup();
-        frequencies
-    }
+/// The frequencies of the samples: even ones, and special ones between them.
+fn sampled((from, to): (f64, f64), special: impl Iterator<Item = f64>) -> Vec<f64> {
+    let ratio = libm::log(to / from);
+    let last = SAMPLES - 1;
+    let even = (0..SAMPLES).map(|k| match k {
+        0 => from,
+        k if k == last => to,
+        k => from * libm::exp(ratio * k as f64 / last as f64),
+    });
+    let special = special.filter(|frequency| from < *frequency && *frequency < to);
+    let mut frequencies: Vec<f64> = even.chain(special).collect();
+    ascending(&mut frequencies);
+    frequencies.dedup();
+    frequencies
 }
 
 /// Why the reach is unknown, if it is at every frequency.

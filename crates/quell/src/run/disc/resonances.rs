@@ -298,7 +298,8 @@ fn interval(growing: &GrowingInterval) -> Json {
 /// What theory says of an interval of growth that it does not explain.
 pub const THREE_WAVES: &str = "no wave and no pair of waves grows there at first or second order: three waves or more grow together";
 
-fn named(order: Order) -> &'static str {
+/// The name of an order.
+pub(crate) fn named(order: Order) -> &'static str {
     match order {
         Order::First => "first",
         Order::Second => "second",

@@ -63,6 +63,18 @@ pub(crate) fn oscillating(units: UnitSystem, frequency: f64) -> String {
     }
 }
 
+/// A range of angular frequencies of `--frequency`.
+///
+/// # Errors
+/// A complaint about a range that does not ascend from above 0.
+pub(crate) fn checked_frequencies((from, to): (f64, f64)) -> Result<(f64, f64), Failure> {
+    if from > 0.0 && to > from && to.is_finite() {
+        return Ok((from, to));
+    }
+    let allowed = "two positive numbers, the second above the first";
+    Err(Complaint::option("--frequency", format!("{from}:{to}"), allowed).into())
+}
+
 /// A frequency with its unit: in hertz where the study has units.
 pub(crate) fn frequency_in_words(units: UnitSystem, frequency: f64) -> String {
     match units {

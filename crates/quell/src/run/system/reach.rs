@@ -11,13 +11,14 @@ use quell_numerics::continuation::modulus;
 use quell_numerics::roots::{Closeness, minimise};
 use serde_json::Value as Json;
 
-use super::{failed, has_equations};
+use super::{checked_frequencies, failed, has_equations};
 use crate::complaint::{Complaint, Complaints, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::design::StudyWithDesign;
 use crate::run::disc::resonances::Order;
-use crate::study::{SystemStudy, UnitSystem};
-use crate::words::{digits, plural};
+use crate::study::SystemStudy;
+use crate::words::{counted, digits};
 
 /// Frequencies of the response, at equal ratios.
 const POINTS: usize = 801;
@@ -102,12 +103,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
     let linear = Linearised::new(system).map_err(|why| failed("resonances", why))?;
     let waves = system.waves();
     let own = waves.map(|wave| wave.frequency).fold(0.0, f64::max);
-    let (from, to) = range.unwrap_or((0.1 * own, 10.0 * own));
-    if !(from > 0.0 && to > from && to.is_finite()) {
-        let given = format!("{from}:{to}");
-        let allowed = "two positive numbers, the second above the first";
-        return Err(Complaint::option("--frequency", given, allowed).into());
-    }
+    let (from, to) = checked_frequencies(range.unwrap_or((0.1 * own, 10.0 * own)))?;
     // The quotient of the ends may overflow, their roots do not.
     let half = libm::log(libm::sqrt(to) / libm::sqrt(from));
     let share = |k: usize| k as f64 / (POINTS - 1) as f64;
@@ -227,24 +223,21 @@ impl Reaches {
         let count =
             self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.out_of_reach).count();
         let peaks = self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.peak).count();
-        let (factor, unit) = match study.units() {
-            UnitSystem::None => (1.0, ""),
-            _ => (1.0 / std::f64::consts::TAU, " Hz"),
-        };
+        let scale = study.frequency_scale();
         let [first, last] = [self.frequencies.first(), self.frequencies.last()]
-            .map(|end| digits(factor * end.copied().unwrap_or(0.0)));
+            .map(|end| digits(scale.of(end.copied().unwrap_or(0.0))));
         let antiresonances = match count {
             0 => String::new(),
             _ => format!(
-                ", and {count} antiresonance{} where it does not reach a contact",
-                plural(count)
+                ", and {} where it does not reach a contact",
+                counted(count, "antiresonance")
             ),
         };
         let peaks = match peaks {
             0 => "no resonance".to_owned(),
-            _ => format!("{peaks} resonance{}", plural(peaks)),
+            _ => counted(peaks, "resonance"),
         };
-        format!("The dither has {peaks} from {first} to {last}{unit}{antiresonances}.")
+        format!("The dither has {peaks} from {first} to {last}{}{antiresonances}.", scale.unit)
     }
 
     /// As JSON.
@@ -268,15 +261,12 @@ impl Reaches {
                 item.plain("kind", if at.peak { "peak" } else { "dip" })
                     .number("frequency", Quantity::FrequencyRatio, at.frequency)
                     .plain("out_of_reach", at.out_of_reach);
-                match at.slip_per_amplitude {
-                    Some(slip) => item.plain("slip_per_amplitude", slip),
-                    None => item.unknown("slip_per_amplitude", UNBOUNDED_RESONANCE),
-                };
-                let reversal = match at.slip_per_amplitude.map(|slip| velocity / slip) {
-                    Some(reversal) if reversal.is_finite() => Ok(reversal),
-                    Some(_) => Err("the dither does not reach the contact".to_owned()),
-                    None => Err(UNBOUNDED_RESONANCE.to_owned()),
-                };
+                let slip = at.slip_per_amplitude.ok_or_else(|| UNBOUNDED_RESONANCE.to_owned());
+                item.known_plain("slip_per_amplitude", slip.clone());
+                let reversal = slip.and_then(|slip| match velocity / slip {
+                    reversal if reversal.is_finite() => Ok(reversal),
+                    _ => Err("the dither does not reach the contact".to_owned()),
+                });
                 item.known("reversal_amplitude", Quantity::Force, reversal);
                 item
             });

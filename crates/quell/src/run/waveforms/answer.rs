@@ -86,10 +86,8 @@ impl WaveformComparison {
         fields.list("waveforms", rows.collect::<Vec<_>>());
         let mut best = empty();
         for column in &COLUMNS {
-            match self.best(column) {
-                Some(row) => best.plain(column.name, row.label()),
-                None => best.unknown(column.name, "no waveform that is ranked has a value"),
-            };
+            let row = self.best(column).map(ComparedWaveform::label);
+            best.known_plain(column.name, row.ok_or("no waveform that is ranked has a value"));
         }
         fields.nested("best", best);
     }

@@ -5,25 +5,13 @@
 
 use std::fmt::Write as _;
 
+use quell_linear::linear_cost::LinearCost;
 use quell_model::Waveform;
 use quell_model::units::Quantity;
 
 use super::label;
 use crate::run::system::in_units;
 use crate::study::SystemStudy;
-
-/// The cost of a dither of unit amplitude.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WaveformCost {
-    /// Root mean square.
-    pub root_mean_square: f64,
-    /// Peak-to-peak displacement of the driven point of the structure without friction, or why it has no value.
-    pub stroke: Result<f64, String>,
-    /// Its largest velocity.
-    pub velocity: Result<f64, String>,
-    /// Mean power that the dither brings into it.
-    pub power: Result<f64, String>,
-}
 
 /// The least dither of one waveform that quenches.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,8 +37,8 @@ pub struct ComparedWaveform {
     pub averaged: Result<LeastDither, String>,
     /// The exact least dither at the study's frequency, or why it is unknown.
     pub exact: Result<LeastDither, String>,
-    /// The cost of unit amplitude.
-    pub unit: WaveformCost,
+    /// The cost of unit amplitude in the structure without friction, or why it has no value.
+    pub unit: Result<LinearCost, String>,
     /// Why the average, which does not know the state of the contacts, differs from that with it at the least amplitude.
     pub without_state: Option<String>,
 }
@@ -91,7 +79,7 @@ pub(crate) struct CostColumn {
     pub(crate) words: &'static str,
     pub(crate) quantity: Quantity,
     /// The value at an amplitude.
-    of: fn(f64, &WaveformCost) -> Result<f64, String>,
+    of: fn(f64, &ComparedWaveform) -> Result<f64, String>,
 }
 
 /// The compared quantities, the amplitude first.
@@ -106,25 +94,25 @@ pub(crate) const COLUMNS: [CostColumn; 5] = [
         name: "root_mean_square",
         words: "rms force",
         quantity: Quantity::Force,
-        of: |amplitude, unit| Ok(amplitude * unit.root_mean_square),
+        of: |amplitude, row| Ok(amplitude * row.waveform.root_mean_square()),
     },
     CostColumn {
         name: "power",
         words: "power",
         quantity: Quantity::Power,
-        of: |amplitude, unit| Ok(amplitude * amplitude * unit.power.clone()?),
+        of: |amplitude, row| Ok(amplitude * amplitude * row.unit.clone()?.power),
     },
     CostColumn {
         name: "stroke",
         words: "stroke",
         quantity: Quantity::Displacement,
-        of: |amplitude, unit| Ok(amplitude * unit.stroke.clone()?),
+        of: |amplitude, row| Ok(amplitude * row.unit.clone()?.stroke),
     },
     CostColumn {
         name: "velocity",
         words: "velocity",
         quantity: Quantity::Velocity,
-        of: |amplitude, unit| Ok(amplitude * unit.velocity.clone()?),
+        of: |amplitude, row| Ok(amplitude * row.unit.clone()?.velocity),
     },
 ];
 
@@ -136,12 +124,12 @@ impl ComparedWaveform {
 
     /// A quantity at the least amplitude by averaging, or why it has no value.
     pub(crate) fn averaged_value(&self, column: &CostColumn) -> Result<f64, String> {
-        (column.of)(self.averaged.as_ref().map_err(Clone::clone)?.amplitude, &self.unit)
+        (column.of)(self.averaged.as_ref().map_err(Clone::clone)?.amplitude, self)
     }
 
     /// A quantity at the exact least amplitude, or why it has no value.
     pub(crate) fn exact_value(&self, column: &CostColumn) -> Result<f64, String> {
-        (column.of)(self.exact.clone()?.amplitude, &self.unit)
+        (column.of)(self.exact.clone()?.amplitude, self)
     }
 }
 

@@ -22,14 +22,15 @@ use quell_linear::averaging::DitheredSystem;
 use quell_linear::input_cost::input_cost;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
-use quell_model::profile::{Profile, Wave};
+use quell_model::profile::Wave;
 use quell_model::waveform::Burst;
 use quell_model::{System, Waveform};
 use serde_json::Value as Json;
 
 pub(crate) use comparison::{COLUMNS, CostColumn};
-pub use comparison::{ComparedWaveform, LeastDither, RankedBy, WaveformComparison, WaveformCost};
+pub use comparison::{ComparedWaveform, LeastDither, RankedBy, WaveformComparison};
 
+use super::design::with_wave;
 use super::stability::FAR;
 use super::system::modes::natural;
 use super::system::{failed, has_equations};
@@ -64,7 +65,7 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
     let highest = motions.motions.iter().map(natural).fold(0.0, f64::max);
     let rows = waveforms.in_parallel(|waveform| {
         let wave = Wave { waveform: waveform.clone(), amplitude: 1.0, ..first.clone() };
-        let unit = with_wave(system, &wave);
+        let unit = with_wave(system.clone(), 0, |_| wave.clone());
         let range = first_averaged(&unit, 0);
         let quiet_without = range.as_ref().is_ok_and(|(low, _)| *low == 0.0);
         let averaged = range.and_then(least);
@@ -74,32 +75,18 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
             averaged_without_states(&unit, &average.contacts).into_iter().next()
         });
         let cost = input_cost(&unit, &sliding, &unit.inputs[0].target, &wave);
-        let cost = cost.map_err(|why| why.to_string());
         ComparedWaveform {
             own: *waveform == first.waveform,
             duty_cycle: duty_cycle(waveform),
             slow: wave.repetition() < FAR * highest,
             exact: exact(&unit, quiet_without),
             averaged,
-            unit: WaveformCost {
-                root_mean_square: waveform.root_mean_square(),
-                stroke: cost.clone().map(|cost| cost.stroke),
-                velocity: cost.clone().map(|cost| cost.velocity),
-                power: cost.map(|cost| cost.power),
-            },
+            unit: cost.map_err(|why| why.to_string()),
             without_state,
             waveform: waveform.clone(),
         }
     });
     Ok(WaveformComparison { rows: rows.collect(), carrier })
-}
-
-/// The system with this wave as its first dither.
-fn with_wave(system: &System, wave: &Wave) -> System {
-    let mut changed = system.clone();
-    let input = &mut changed.inputs[0];
-    input.profile = Profile::constant(input.profile.mean()).with(wave.clone());
-    changed
 }
 
 /// The waveforms of a comparison.

@@ -3,9 +3,10 @@
 use quell_model::system::{Mechanical, StateSpace, Structure};
 
 use super::widths;
-use crate::picture::sketch::symbols::{indexed, number};
-use crate::study::{SystemStudy, UnitSystem};
-use crate::words::plural;
+use crate::picture::sketch::symbols::{indexed, number, terms};
+use crate::run::design::StudyWithDesign;
+use crate::study::SystemStudy;
+use crate::words::counted;
 
 /// The most coordinates or states that are drawn one by one.
 const MOST_BODIES: usize = 12;
@@ -103,10 +104,8 @@ fn modes(
             format!("{least} to {most}{unit}")
         }
     };
-    let frequency = match study.units() {
-        UnitSystem::None => range(1.0, ""),
-        _ => range(std::f64::consts::TAU.recip(), " Hz"),
-    };
+    let scale = study.frequency_scale();
+    let frequency = range(scale.factor, scale.unit);
     let count = counted(indices.len(), "mode");
     let lines =
         if name == "mode" { vec![count, frequency] } else { vec![name.clone(), count, frequency] };
@@ -132,11 +131,7 @@ fn group(name: &str, lines: Vec<String>, indices: Vec<usize>) -> SketchBody {
 fn state(study: &SystemStudy, states: &StateSpace, place: usize, room: f64) -> SketchBody {
     const MOST_TERMS: usize = 12;
     let name = states.names()[place].clone();
-    let mut terms = crate::picture::sketch::symbols::terms(
-        states.matrix().row(place),
-        states.names(),
-        MOST_TERMS,
-    );
+    let mut terms = terms(states.matrix().row(place), states.names(), MOST_TERMS);
     let force = study.system().structure.force()[place];
     if force != 0.0 || terms.is_empty() {
         let sign = match (force < 0.0, terms.is_empty()) {
@@ -158,9 +153,4 @@ fn state(study: &SystemStudy, states: &StateSpace, place: usize, room: f64) -> S
         }
     }
     SketchBody { kind: BodyKind::State, name, lines, indices: vec![place] }
-}
-
-/// A count with its noun.
-pub(super) fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", plural(u32::try_from(count).unwrap_or(u32::MAX)))
 }

@@ -2,12 +2,13 @@
 
 use quell_model::Contact;
 
-use super::body::{BodyKind, SketchBody, counted};
+use super::body::{BodyKind, SketchBody};
 use super::contact_place::{PAD, ROD, SPRING, home, is_compliant, mark, state_height};
 use super::drawing::SystemDrawing;
 use super::grid::BodySeat;
 use crate::picture::sketch::symbols::{index, indexed};
 use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
+use crate::words::counted;
 
 use LabelSide::{Above, Below, Left, Right};
 

@@ -8,10 +8,12 @@ use super::link::SketchLink;
 use super::widths::{GAP, state_width};
 use crate::study::SystemStudy;
 
-/// Height of a box without forces.
-const HEIGHT: f64 = 38.0;
+/// Height of a support above a box.
+pub(super) const SUPPORT: f64 = 32.0;
+/// Height of a box without forces: that of the springs between neighbours, below which forces act.
+pub(super) const SPRINGS: f64 = 38.0;
 /// Height of one force below the springs.
-const FORCE: f64 = 24.0;
+pub(super) const FORCE: f64 = 24.0;
 /// Height of one track.
 const TRACK: f64 = 26.0;
 /// Vertical distance of two rows.
@@ -44,19 +46,6 @@ impl BodySeat {
     pub(super) fn middle(&self) -> f64 {
         self.left + 0.5 * self.width
     }
-}
-
-/// Measures of a row.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct RowHeights;
-
-impl RowHeights {
-    /// Height of a support above a box.
-    pub(super) const SUPPORT: f64 = 32.0;
-    /// Height of the springs between neighbours, below which forces act.
-    pub(super) const SPRINGS: f64 = HEIGHT;
-    /// Height of a force.
-    pub(super) const FORCE: f64 = FORCE;
 }
 
 /// The boxes of all bodies and the tracks of links.
@@ -92,7 +81,7 @@ impl BodyGrid {
                 links.iter().any(|link| link.to.is_none() && members.contains(&link.from));
             let modal = bodies[members.clone()].iter().any(|body| body.kind == BodyKind::Modes);
             let head = if supported {
-                RowHeights::SUPPORT + 8.0
+                SUPPORT + 8.0
             } else if modal {
                 RESONATORS
             } else {
@@ -178,6 +167,6 @@ fn height(study: &SystemStudy, bodies: &[SketchBody], members: std::ops::Range<u
         SketchBody { kind: BodyKind::State, lines, .. } => {
             (10.0 + 12.5 * lines.len() as f64).max(FORCE * most as f64)
         }
-        _ => HEIGHT + FORCE * most as f64,
+        _ => SPRINGS + FORCE * most as f64,
     }
 }

@@ -6,7 +6,7 @@ use quell_model::system::InputTarget;
 use super::body::BodyKind;
 use super::contacts;
 use super::drawing::SystemDrawing;
-use super::grid::RowHeights;
+use super::grid;
 use crate::picture::sketch::symbols::{glyph, index, indexed};
 use crate::plot::{LabelSide, Sketch, SketchInk, SketchPart, SketchShape};
 
@@ -50,7 +50,7 @@ fn force(
     let level = if drawing.bodies[body].kind == BodyKind::State {
         seat.top + 0.5 * seat.height
     } else {
-        seat.top + RowHeights::SPRINGS + RowHeights::FORCE * row as f64 + 12.0
+        seat.top + grid::SPRINGS + grid::FORCE * row as f64 + 12.0
     };
     let wave = SketchShape::Wave { at: (seat.left - 31.0, level), glyph: glyph(form) };
     let arrow =
@@ -91,7 +91,7 @@ fn constant_forces(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
             continue;
         }
         let seat = drawing.grid.seat(place);
-        let level = seat.top + RowHeights::SPRINGS + 12.0;
+        let level = seat.top + grid::SPRINGS + 12.0;
         let shape = SketchShape::Arrow {
             from: (seat.right() + 1.0, level),
             to: (seat.right() + 24.0, level),

@@ -1,21 +1,22 @@
 //! The key of a system: masses, links, contacts and inputs with their values.
 
-use std::f64::consts::TAU;
-
 use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use quell_model::{Contact, Input, Profile};
 
-use super::body::{BodyKind, counted};
+use super::body::BodyKind;
 use super::contacts::{stiffness_symbol, tangential_symbol};
 use super::drawing::SystemDrawing;
 use super::key_rows::{KeyRow, add_rows};
-use crate::noise::lines_in_words;
 use crate::picture::sketch::actuator;
-use crate::picture::sketch::symbols::{combination, index, indexed, item, number};
+use crate::picture::sketch::symbols::{
+    combination, further, index, indexed, item, law_items, measured, number, pair, wave_items,
+};
 use crate::plot::{Sketch, SketchKey};
+use crate::run::design::StudyWithDesign;
 use crate::run::system::in_units;
 use crate::study::UnitSystem;
+use crate::words::counted;
 
 /// The most links between coordinates, contacts or inputs with a row each.
 const MOST_ROWS: usize = 12;
@@ -102,10 +103,7 @@ fn links(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
         items.extend(link.stiffness.map(|value| item(&link.symbol("k"), value, None)));
         items.extend(link.damping.map(|value| item(&link.symbol("c"), value, None)));
         for (letter, one, other) in &link.couplings {
-            let (there, back) = (
-                crate::picture::sketch::symbols::pair(link.from, *to),
-                crate::picture::sketch::symbols::pair(*to, link.from),
-            );
+            let (there, back) = (pair(link.from, *to), pair(*to, link.from));
             let (there, back) = (indexed(letter, &there), indexed(letter, &back));
             if one == other {
                 items.push(format!("coupling {there} = {back} = {}", number(*one)));
@@ -115,15 +113,11 @@ fn links(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
             }
         }
         let head = format!("{} – {}", name(link.from), name(*to));
-        let index = crate::picture::sketch::symbols::pair(link.from, *to);
+        let index = pair(link.from, *to);
         rows.push(KeyRow { head, index, items, rows: Vec::new() });
     }
     sheet = add_rows(sheet, &rows, "");
-    if between.len() > MOST_ROWS {
-        let more = counted(between.len() - MOST_ROWS, "further link");
-        sheet = sheet.with_key(SketchKey::new(more, Vec::<String>::new()));
-    }
-    sheet
+    further(sheet, between.len(), MOST_ROWS, "link")
 }
 
 fn contacts(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
@@ -133,11 +127,7 @@ fn contacts(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
         rows.push(contact_row(drawing, contact, index(place, contacts.len())));
     }
     sheet = add_rows(sheet, &rows, "Contact ");
-    if contacts.len() > MOST_ROWS {
-        let more = counted(contacts.len() - MOST_ROWS, "further contact");
-        sheet = sheet.with_key(SketchKey::new(more, Vec::<String>::new()));
-    }
-    sheet
+    further(sheet, contacts.len(), MOST_ROWS, "contact")
 }
 
 fn contact_row(drawing: &SystemDrawing<'_>, contact: &Contact, index: String) -> KeyRow {
@@ -169,11 +159,8 @@ fn contact_row(drawing: &SystemDrawing<'_>, contact: &Contact, index: String) ->
         let unit = units.unit(Quantity::Stiffness);
         items.push(item(&tangential_symbol(&index), stiffness, unit));
     }
-    let law = contact.friction.kind();
-    items.push(format!("{} by the law “{}”", indexed("T", &index), law.name()));
-    for (known, value) in law.parameters().iter().zip(contact.friction.values()) {
-        items.push(item(&format!("${}$", known.symbol), value, units.unit(known.quantity)));
-    }
+    let written = |quantity, value| measured(value, units.unit(quantity));
+    items.extend(law_items(&contact.friction, &indexed("T", &index), written));
     let named = [
         ("slip", &contact.tangent),
         ("friction acts on", &contact.force),
@@ -193,11 +180,7 @@ fn inputs(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
         let (head, items) = input_row(drawing, input, &symbol);
         sheet = sheet.with_key(SketchKey::new(head, items));
     }
-    if inputs.len() > MOST_ROWS {
-        let more = counted(inputs.len() - MOST_ROWS, "further dither");
-        sheet = sheet.with_key(SketchKey::new(more, Vec::<String>::new()));
-    }
-    sheet
+    further(sheet, inputs.len(), MOST_ROWS, "dither")
 }
 
 fn input_row(drawing: &SystemDrawing<'_>, input: &Input, symbol: &str) -> (String, Vec<String>) {
@@ -228,22 +211,12 @@ fn input_row(drawing: &SystemDrawing<'_>, input: &Input, symbol: &str) -> (Strin
         items.push(item(&format!("{} {symbol}", wave.waveform.name()), wave.amplitude, force_unit));
         let noise = wave.waveform.noise();
         let ends = noise.map_or([wave.frequency; 2], |noise| noise.band(wave.frequency));
-        let [low, high] = ends.map(|end| match units {
-            UnitSystem::None => number(end),
-            _ => number(end / TAU),
-        });
+        let scale = drawing.study.frequency_scale();
+        let [low, high] = ends.map(|end| number(scale.of(end)));
         let range = if noise.is_some() { format!("{low} to {high}") } else { low };
-        items.push(match units {
-            UnitSystem::None => format!("$ω$ = {range}"),
-            _ => format!("{range} Hz"),
-        });
-        items.extend(noise.map(lines_in_words));
-        if wave.envelope.is_some() {
-            items.push("times its envelope".to_owned());
-        }
-        if wave.phase != 0.0 {
-            items.push(format!("$φ$ = {} rad", number(wave.phase)));
-        }
+        let symbol = if scale.unit.is_empty() { "$ω$ = " } else { "" };
+        items.push(format!("{symbol}{range}{}", scale.unit));
+        items.extend(wave_items(&wave.waveform, wave.envelope.is_some(), wave.phase));
     }
     (crate::words::capital(&format!("dither, {place}")), items)
 }

@@ -1,10 +1,10 @@
 //! Draws springs, dampers and other couplings between bodies, and between a body and the ground.
 
-use super::body::counted;
 use super::drawing::SystemDrawing;
-use super::grid::{BodySeat, RowHeights};
+use super::grid::{BodySeat, SUPPORT};
 use super::link::SketchLink;
 use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
+use crate::words::counted;
 
 use LabelSide::{Above, Below, Left, Right};
 
@@ -47,7 +47,7 @@ fn named(drawing: &SystemDrawing<'_>, link: &SketchLink, noun: &str) -> String {
 /// A spring and a damper above a body, on a support.
 fn support(mut sheet: Sketch, drawing: &SystemDrawing<'_>, link: &SketchLink) -> Sketch {
     let seat = drawing.grid.seat(link.from);
-    let top = seat.top - RowHeights::SUPPORT;
+    let top = seat.top - SUPPORT;
     let (left, right) = (seat.left + 12.0, seat.left + 30.0);
     if link.stiffness.is_some() {
         let shape = SketchShape::Spring { from: (left, seat.top), to: (left, top) };
@@ -125,26 +125,17 @@ fn tracked(
         ]
     };
     let line = |points: Vec<(f64, f64)>| SketchShape::Line { points, style: LineStyle::Solid };
-    let (shape, class, noun, label) = match (link.stiffness, link.damping) {
-        (Some(_), damping) => {
-            let shape =
-                SketchShape::Spring { from: (middle - 16.0, level), to: (middle + 16.0, level) };
-            let damper = damping.map(|_| format!(", {}", link.symbol("c"))).unwrap_or_default();
-            (shape, "spring", "spring", link.symbol("k") + &damper)
-        }
-        (None, Some(_)) => {
-            let shape =
-                SketchShape::Damper { from: (middle - 16.0, level), to: (middle + 16.0, level) };
-            (shape, "damper", "damper", link.symbol("c"))
-        }
-        (None, None) => {
-            let points = vec![(left, from.top), (left, level), (right, level), (right, to.top)];
-            let part = coupling(drawing, link, points);
-            return sheet.with(part.label(letters(link), &[Above]));
-        }
-    };
+    let (class, mut label) = main_part(link);
+    if class == "coupling" {
+        let points = vec![(left, from.top), (left, level), (right, level), (right, to.top)];
+        return sheet.with(coupling(drawing, link, points).label(label, &[Above]));
+    }
+    if link.stiffness.is_some() && link.damping.is_some() {
+        label = format!("{label}, {}", link.symbol("c"));
+    }
     let [one, other] = legs(16.0);
-    let part = SketchPart::new(class, named(drawing, link, noun), shape);
+    let shape = element(class, (middle - 16.0, level), (middle + 16.0, level));
+    let part = SketchPart::new(class, named(drawing, link, class), shape);
     let part = part.label(label, &[Above, Below]);
     let sheet = sheet.with(part.and(line(one)).and(line(other)));
     if link.couplings.is_empty() {
