@@ -9,19 +9,14 @@ pub struct HtmlPage {
     style: &'static str,
     contents: String,
     body: String,
-    open: bool,
+    /// What closes the present section.
+    open: &'static str,
 }
 
 impl HtmlPage {
     /// An empty page with this title and style sheet.
     pub fn new(title: &str, style: &'static str) -> Self {
-        Self {
-            title: escape(title),
-            style,
-            contents: String::new(),
-            body: String::new(),
-            open: false,
-        }
+        Self { title: escape(title), style, contents: String::new(), body: String::new(), open: "" }
     }
 
     /// Adds HTML.
@@ -32,11 +27,22 @@ impl HtmlPage {
 
     /// Begins a section with a line in the table of contents.
     pub fn section(&mut self, anchor: &str, title: &str) {
+        let title = self.begun(anchor, title, "</section>");
+        self.put(&format!("<section id=\"{anchor}\"><h2>{title}</h2>"));
+    }
+
+    /// Begins a section of which only the title is shown until it is opened.
+    pub fn folded(&mut self, anchor: &str, title: &str) {
+        let title = self.begun(anchor, title, "</details></section>");
+        self.put(&format!("<section id=\"{anchor}\"><details><summary><h2>{title}</h2></summary>"));
+    }
+
+    fn begun(&mut self, anchor: &str, title: &str, close: &'static str) -> String {
         self.close();
-        self.open = true;
+        self.open = close;
         let title = escape(title);
         let _ = writeln!(self.contents, "<a class=\"part\" href=\"#{anchor}\">{title}</a>");
-        self.put(&format!("<section id=\"{anchor}\"><h2>{title}</h2>"));
+        title
     }
 
     /// A line in the table of contents below the section.
@@ -50,8 +56,9 @@ impl HtmlPage {
     }
 
     fn close(&mut self) {
-        if std::mem::take(&mut self.open) {
-            self.put("</section>");
+        let close = std::mem::take(&mut self.open);
+        if !close.is_empty() {
+            self.put(close);
         }
     }
 

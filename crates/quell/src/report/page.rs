@@ -1,5 +1,6 @@
 //! The page of a report.
 
+use quell_model::digits::digits;
 use serde_json::Value as Json;
 
 use crate::cite::Sources;
@@ -7,7 +8,7 @@ use crate::html::{HtmlPage, escape, symbols, table};
 use crate::plot;
 use crate::study::Kind;
 use crate::verbs::verbs;
-use crate::words::{capital, digits};
+use crate::words::capital;
 
 use super::facts::{self, FactRow};
 use super::parts::{ReportedAnswer, StudyReport};
@@ -29,7 +30,7 @@ const COSTS: &[&str] = &[
     "minimum_normal_load",
 ];
 /// Fields that state a verdict, and its error: the first that an answer has.
-const VERDICTS: &[&str] = &["/verdict", "/effect"];
+const VERDICTS: &[&str] = &["/verdict", "/effect", "/local/0/kind"];
 const ERRORS: &[&str] = &[
     "/growth_rate_error",
     "/multiplier_error",
@@ -39,6 +40,11 @@ const ERRORS: &[&str] = &[
     "/thresholds/0/error",
     "/changes/0/relative_error",
 ];
+
+/// Verbs whose pictures are shown at once, the most important first, and how many of them.
+const PICTURED: &[&str] =
+    &["thresholds", "response", "design", "probability", "stability", "resonances", "friction"];
+const MOST_PICTURES: usize = 2;
 
 /// The page.
 pub(super) fn html(report: &StudyReport) -> String {
@@ -51,17 +57,41 @@ pub(super) fn html(report: &StudyReport) -> String {
         escape(title),
         escape(&report.question)
     ));
+    let pictured = pictured(report);
+    answer(&mut page, report);
     sketch(&mut page, report);
-    assumptions(&mut page, report);
-    values(&mut page, report);
     verdicts(&mut page, report);
     cost(&mut page, report);
-    answers(&mut page, report);
+    pictures(&mut page, &pictured);
     unexamined(&mut page, report);
+    // What is behind the answer is shown where it is asked for, and not on paper.
+    assumptions(&mut page, report);
+    values(&mut page, report);
+    answers(&mut page, report, &pictured);
     sources(&mut page, report);
     numbers(&mut page, report);
     study(&mut page, report);
     page.finish()
+}
+
+/// The answer in one paragraph: the sentences of the verbs that answer the question.
+fn answer(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("answer", "The answer");
+    let wanted: &[&str] = match report.study.disc() {
+        Err(_) if is_dithered(&report.study) => &["response", "thresholds"],
+        _ => &["stability"],
+    };
+    let of = |verbs: &[&str]| -> Vec<String> {
+        let said = report.answers.iter().filter(|answer| verbs.contains(&answer.verb));
+        said.filter_map(|answer| answer.outcome.sentence()).map(|text| symbols(&text)).collect()
+    };
+    let mut sentences = of(wanted);
+    sentences.extend(of(&["design", "probability"]));
+    if sentences.is_empty() {
+        page.put("<p>No verb answered the question; what was not examined says why.</p>");
+    } else {
+        page.put(&format!("<p class=\"lead\">{}</p>", sentences.join(" ")));
+    }
 }
 
 fn sketch(page: &mut HtmlPage, report: &StudyReport) {
@@ -75,18 +105,17 @@ fn sketch(page: &mut HtmlPage, report: &StudyReport) {
 
 /// What the computations take for granted: the equations and their uses, from the sources, and what the check warns about.
 fn assumptions(page: &mut HtmlPage, report: &StudyReport) {
-    page.section("assumptions", "Assumptions");
+    page.folded("assumptions", "Assumptions");
     let sources = cited(report);
     let starts = report.answers.iter().map(|answer| format!("{}: {}", answer.verb, answer.start));
     page.put("<p>The answers use these equations and methods:</p>");
     page.put(&list(sources.uses().into_iter().map(symbols)));
     page.put("<p>Where each computation starts:</p>");
     page.put(&list(starts.map(|text| symbols(&text))));
-    page.put(&warnings(&report.check.warnings()));
 }
 
 fn values(page: &mut HtmlPage, report: &StudyReport) {
-    page.section("values", "Values of the study");
+    page.folded("values", "Values of the study");
     page.put(&fact_table(&facts::rows(&report.check.facts())));
 }
 
@@ -97,30 +126,30 @@ fn verdicts(page: &mut HtmlPage, report: &StudyReport) {
         page.put("<p>No verb gave an answer.</p>");
         return;
     }
-    let rows = report.answers.iter().map(|answer| {
-        let first = |pointers: &[&str]| {
-            let found = pointers.iter().find_map(|pointer| match answer.facts.pointer(pointer) {
-                Some(Json::String(text)) => Some(text.clone()),
-                Some(Json::Number(number)) => {
-                    Some(number.as_f64().map_or_else(String::new, digits))
-                }
+    let rows = report.answers.iter().filter_map(|answer| {
+        let first = |pointers: &[&str], digits: &dyn Fn(f64) -> String| {
+            pointers.iter().find_map(|pointer| match answer.facts.pointer(pointer) {
+                Some(Json::String(text)) => Some(escape(text)),
+                Some(Json::Number(number)) => number.as_f64().map(digits),
                 _ => None,
-            });
-            found.map_or_else(|| "–".to_owned(), |text| escape(&text))
+            })
         };
-        vec![
-            format!("<a href=\"#{}\">{}</a>", anchor(report, answer), escape(answer.heading)),
-            first(VERDICTS),
-            symbols(&answer.start),
-            first(ERRORS),
-            answer.outcome.sentence().map_or_else(String::new, |text| symbols(&text)),
-        ]
+        let shown = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+        let verdict = first(VERDICTS, &|value| digits(value, 6));
+        let error = first(ERRORS, &|error| format!("{error:.0e}"));
+        // An answer without a verdict has its place among the answers alone.
+        (verdict.is_some() || error.is_some()).then(|| {
+            vec![
+                format!("<a href=\"#{}\">{}</a>", anchor(report, answer), escape(answer.heading)),
+                shown(verdict),
+                symbols(&answer.start),
+                shown(error),
+            ]
+        })
     });
-    page.put(&table(
-        "verdicts",
-        &["question", "verdict", "start", "numerical error", "answer"],
-        rows,
-    ));
+    let rows: Vec<Vec<String>> = rows.collect();
+    page.put(&table("verdicts", &["question", "verdict", "protocol", "numerical error"], rows));
+    page.put(&warnings(&report.check.warnings()));
 }
 
 fn cost(page: &mut HtmlPage, report: &StudyReport) {
@@ -140,13 +169,52 @@ fn cost(page: &mut HtmlPage, report: &StudyReport) {
             "<p>No response was computed, so that friction, power and stroke are not known.</p>",
         );
     } else {
+        let facts = response.map(|answer| &answer.facts);
+        let rows: Vec<FactRow> = rows.iter().map(|row| cost_in_words(row, facts)).collect();
         page.put(&fact_table(&rows));
     }
 }
 
+/// A cost of a contact or a dither by its name, with four significant digits.
+fn cost_in_words(row: &FactRow, facts: Option<&Json>) -> FactRow {
+    let (place, quantity) = row.path.rsplit_once('.').unwrap_or(("", &row.path));
+    let (list, rest) = place.split_once('[').unwrap_or((place, ""));
+    let index = rest.trim_end_matches(']');
+    let count = |list: &Json| list.as_array().map_or(0, Vec::len);
+    let list_of = facts.and_then(|facts| facts.get(list));
+    let name = facts.and_then(|facts| facts.pointer(&format!("/{list}/{index}/name"))?.as_str());
+    let of = match (list, name) {
+        ("contacts", Some(name)) => format!(" at contact {name}"),
+        ("dithers", _) if list_of.map_or(0, count) > 1 => format!(" of dither[{index}]"),
+        ("dithers", _) => " of the dither".to_owned(),
+        _ => String::new(),
+    };
+    let value = row.value.parse::<f64>().map_or(row.value.clone(), |value| digits(value, 4));
+    FactRow { path: format!("{}{of}", quantity.replace('_', " ")), value, unit: row.unit.clone() }
+}
+
+/// The answers whose pictures are shown at once, and the pictures.
+fn pictured(report: &StudyReport) -> Vec<(&ReportedAnswer, String)> {
+    let wanted = PICTURED
+        .iter()
+        .filter_map(|verb| report.answers.iter().find(|answer| answer.verb == *verb));
+    let drawn = wanted.filter(|answer| matches!(answer.outcome.figure(), Some(Ok(_))));
+    drawn.take(MOST_PICTURES).map(|answer| (answer, picture(answer))).collect()
+}
+
+fn pictures(page: &mut HtmlPage, pictured: &[(&ReportedAnswer, String)]) {
+    if pictured.is_empty() {
+        return;
+    }
+    page.section("pictures", "Pictures");
+    for (answer, picture) in pictured {
+        page.put(&format!("<h3>{}</h3>{picture}", escape(answer.heading)));
+    }
+}
+
 /// The answers with their pictures.
-fn answers(page: &mut HtmlPage, report: &StudyReport) {
-    page.section("answers", "Answers");
+fn answers(page: &mut HtmlPage, report: &StudyReport, pictured: &[(&ReportedAnswer, String)]) {
+    page.folded("answers", "Every answer");
     for answer in &report.answers {
         let anchor = anchor(report, answer);
         page.entry(&anchor, "", answer.heading);
@@ -163,7 +231,11 @@ fn answers(page: &mut HtmlPage, report: &StudyReport) {
             page.put(&format!("<p>{}</p>", symbols(&sentence)));
         }
         page.put(&warnings(&answer.outcome.warnings()));
-        page.put(&picture(answer));
+        if pictured.iter().any(|(shown, _)| std::ptr::eq(*shown, answer)) {
+            page.put("<p class=\"name\">Its picture is <a href=\"#pictures\">above</a>.</p>");
+        } else {
+            page.put(&picture(answer));
+        }
         page.put(&format!("<pre><code>{}</code></pre>", escape(&answer.outcome.table())));
         page.put("</article>");
     }
@@ -200,7 +272,7 @@ fn cited(report: &StudyReport) -> Sources {
 }
 
 fn sources(page: &mut HtmlPage, report: &StudyReport) {
-    page.section("sources", "Versions and sources");
+    page.folded("sources", "Versions and sources");
     page.put(&format!("<p>Computed by Quell {}.</p>", env!("CARGO_PKG_VERSION")));
     let sources = cited(report);
     let items = sources.unique().into_iter().map(|source| {
@@ -218,7 +290,7 @@ fn sources(page: &mut HtmlPage, report: &StudyReport) {
 
 /// Every number of every answer.
 fn numbers(page: &mut HtmlPage, report: &StudyReport) {
-    page.section("numbers", "All numbers");
+    page.folded("numbers", "All numbers");
     page.put("<p>As <code>--json</code> of each verb prints them.</p>");
     for answer in &report.answers {
         page.put(&format!("<h3>{}</h3>", escape(&capital(answer.verb))));
@@ -227,7 +299,7 @@ fn numbers(page: &mut HtmlPage, report: &StudyReport) {
 }
 
 fn study(page: &mut HtmlPage, report: &StudyReport) {
-    page.section("study", "The study file");
+    page.folded("study", "The study file");
     let changes = report.study.changes();
     if !changes.is_empty() {
         page.put("<p>Changed by <code>--set</code>:</p>");
