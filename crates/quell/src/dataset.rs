@@ -9,10 +9,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use quell_model::units::{Quantity, Scales};
+use quell_model::units::Quantity;
 
 use crate::fields::PER_VELOCITY;
-use crate::study::{Kind, Study, UnitSystem};
+use crate::study::{Study, UnitSystem};
 
 /// One array with its name and unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,8 +73,7 @@ pub struct Provenance {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dataset {
     provenance: Provenance,
-    scales: Option<Scales>,
-    /// The units of a study of a system.
+    /// The units of the study; `None` of numbers that belong to no study, or to the equations of a disc.
     units: Option<UnitSystem>,
     axes: Vec<Array>,
     arrays: Vec<Array>,
@@ -91,11 +90,7 @@ impl Dataset {
                 changes: study.changes().to_vec(),
                 facts: Vec::new(),
             },
-            scales: study.scales(),
-            units: match study.kind() {
-                Kind::System(setup) => Some(setup.units()),
-                Kind::Belt(_) | Kind::Disc(_) => None,
-            },
+            units: study.disc().is_err().then(|| study.units()),
             axes: Vec::new(),
             arrays: Vec::new(),
         }
@@ -115,7 +110,7 @@ impl Dataset {
             changes: Vec::new(),
             facts: Vec::new(),
         };
-        Self { provenance, scales: None, units: None, axes: Vec::new(), arrays: Vec::new() }
+        Self { provenance, units: None, axes: Vec::new(), arrays: Vec::new() }
     }
 
     /// Adds a fact to the provenance.
@@ -143,7 +138,7 @@ impl Dataset {
     #[must_use]
     pub fn per_velocity(mut self, name: &str, values: Vec<f64>) -> Self {
         let mut array = self.in_units(name, Quantity::PerVelocity, values);
-        if self.scales.is_none() && self.units.is_none() {
+        if self.units.is_none() {
             (array.unit, array.scaling) = readable(PER_VELOCITY);
         }
         self.arrays.push(array);
@@ -209,16 +204,11 @@ impl Dataset {
     }
 
     /// An array in the units of the study.
-    fn in_units(&self, name: &str, quantity: Quantity, mut values: Vec<f64>) -> Array {
-        if let Some(units) = self.units {
-            return Array::new(name, units.unit(quantity).unwrap_or("1"), values);
-        }
-        let Some((one, unit)) = self.scales.and_then(|scales| scales.own(quantity)) else {
-            return Array::new(name, quantity.scaled_unit(), values);
+    fn in_units(&self, name: &str, quantity: Quantity, values: Vec<f64>) -> Array {
+        let unit = match self.units {
+            Some(units) => units.unit(quantity).unwrap_or("1"),
+            None => quantity.scaled_unit(),
         };
-        for value in &mut values {
-            *value *= one;
-        }
         Array::new(name, unit, values)
     }
 
@@ -313,7 +303,8 @@ mod tests {
     #[test]
     fn rows_enumerate_the_product_of_the_axes() {
         let study = Study::parse(TEXT, &[]).expect("valid");
-        let csv = Dataset::of(&study, "map")
+        let without_units = Dataset { units: None, ..Dataset::of(&study, "map") };
+        let csv = without_units
             .axis("a", Quantity::Ratio, vec![1.0, 2.0])
             .axis("b", Quantity::Ratio, vec![0.1, 0.2, 0.3])
             .array("c", Quantity::Force, vec![1.0, 2.0, 3.0, 4.0, f64::NAN, 1e-300])
@@ -337,8 +328,8 @@ mod tests {
             .replace("reference_velocity", "reference_velocity_m_per_s");
         let study = Study::parse(&text, &[]).expect("valid");
         let csv = Dataset::of(&study, "simulate")
-            .axis("time", Quantity::Time, vec![10.0])
-            .array("velocity", Quantity::Velocity, vec![0.5])
+            .axis("time", Quantity::Time, vec![1.0])
+            .array("velocity", Quantity::Velocity, vec![5.0])
             .array("sticking", Quantity::Count, vec![1.0])
             .csv();
         let rows: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
@@ -346,7 +337,7 @@ mod tests {
         let units = "# units: time [s], velocity [m/s], sticking [dimensionless]";
         assert!(csv.contains(units), "{csv}");
         let plane = Dataset::of(&study, "basins")
-            .axis("velocity", Quantity::Velocity, vec![0.1, 0.2])
+            .axis("velocity", Quantity::Velocity, vec![1.0, 2.0])
             .axis("displacement", Quantity::Displacement, vec![0.0]);
         assert!(plane.arrays().is_empty() && plane.axes()[0].values == [1.0, 2.0]);
         assert!(!csv.contains("length") && !csv.contains("# scaling"));

@@ -3,20 +3,11 @@
 //! `units` contains the unit of every field, and `why` the reason for every null.
 
 use crate::study::UnitSystem;
-use quell_model::units::{Quantity, Scales};
+use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json};
 
 /// The unit of a slope per unit velocity of a study without units.
 pub(crate) const PER_VELOCITY: &str = "1/length (per velocity/ω₀)";
-
-/// The units of a study's numbers.
-#[derive(Clone, Copy, Debug)]
-enum FieldUnits {
-    /// Numbers of the equations of one mass, scaled by its mass and stiffness in a study with units.
-    Scaled(Option<Scales>),
-    /// Numbers of a system in the units of its file.
-    System(UnitSystem),
-}
 
 /// The unit of a rate of a system.
 pub(crate) fn rate_unit(units: UnitSystem) -> &'static str {
@@ -28,32 +19,24 @@ pub(crate) fn rate_unit(units: UnitSystem) -> &'static str {
 }
 
 /// An object under construction.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Fields {
-    of: FieldUnits,
+    /// The units of the study; `None` of numbers that belong to no study, or to the equations of a disc.
+    study: Option<UnitSystem>,
     object: Map<String, Json>,
     units: Map<String, Json>,
     why: Map<String, Json>,
 }
 
 impl Fields {
-    /// An empty object for a study with these scales.
-    pub fn new(scales: Option<Scales>) -> Self {
-        let of = FieldUnits::Scaled(scales);
-        Self { of, object: Map::new(), units: Map::new(), why: Map::new() }
+    /// An empty object for numbers that belong to no study, or to the equations of a disc.
+    pub fn new() -> Self {
+        Self { study: None, object: Map::new(), units: Map::new(), why: Map::new() }
     }
 
-    /// An empty object for a study of a system in these units.
-    pub fn of_system(units: UnitSystem) -> Self {
-        Self { of: FieldUnits::System(units), ..Self::new(None) }
-    }
-
-    /// The scales of the study of one mass.
-    pub fn scales(&self) -> Option<Scales> {
-        match self.of {
-            FieldUnits::Scaled(scales) => scales,
-            FieldUnits::System(_) => None,
-        }
+    /// An empty object for a study in these units.
+    pub fn in_units(units: UnitSystem) -> Self {
+        Self { study: Some(units), ..Self::new() }
     }
 
     /// Adds a word, a flag, a count, or any other value without unit.
@@ -97,24 +80,19 @@ impl Fields {
         quantity: Quantity,
         value: Result<f64, String>,
     ) -> &mut Self {
-        let (one, unit) = self.one(name, quantity);
-        self.units.insert(name.to_owned(), unit.into());
-        self.finite(name, value.map(|value| value * one))
+        self.units.insert(name.to_owned(), self.unit(quantity).into());
+        self.finite(name, value)
     }
 
     /// Adds an array of a quantity; values that are not finite become null.
     pub fn numbers(&mut self, name: &str, quantity: Quantity, values: &[f64]) -> &mut Self {
-        let (one, unit) = self.one(name, quantity);
-        self.units.insert(name.to_owned(), unit.into());
-        let values: Vec<f64> = values.iter().map(|value| value * one).collect();
-        self.object.insert(name.to_owned(), values.into());
-        self
+        self.measured(name, self.unit(quantity), values.to_vec())
     }
 
     /// Adds an array of slopes per unit velocity.
     pub fn per_velocity(&mut self, name: &str, values: &[f64]) -> &mut Self {
         self.numbers(name, Quantity::PerVelocity, values);
-        if matches!(self.of, FieldUnits::Scaled(None)) {
+        if self.study.is_none() {
             self.units.insert(name.to_owned(), PER_VELOCITY.into());
         }
         self
@@ -122,10 +100,7 @@ impl Fields {
 
     /// Adds rates; null with the reason for a missing value.
     pub fn rates(&mut self, name: &str, values: &[Option<f64>], why: &str) -> &mut Self {
-        let (one, unit) = self.one_rate();
-        let own: Vec<Option<f64>> =
-            values.iter().map(|value| value.map(|value| value * one)).collect();
-        self.measured(name, unit, own);
+        self.measured(name, self.rate_unit(), values.to_vec());
         if values.contains(&None) {
             self.why(name, why);
         }
@@ -135,20 +110,15 @@ impl Fields {
         self
     }
 
-    /// What one rate of the equations is in the units of the study, with the unit.
-    fn one_rate(&self) -> (f64, &'static str) {
-        match self.of {
-            FieldUnits::Scaled(None) => (1.0, "ω₀"),
-            FieldUnits::Scaled(Some(scales)) => (scales.angular_frequency(), "1/s"),
-            FieldUnits::System(units) => (1.0, rate_unit(units)),
-        }
+    /// The unit of a rate.
+    fn rate_unit(&self) -> &'static str {
+        self.study.map_or("ω₀", rate_unit)
     }
 
     /// Adds a growth rate; or null with the reason.
     pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
-        let (one, unit) = self.one_rate();
-        self.units.insert(name.to_owned(), unit.into());
-        self.finite(name, value.map(|value| value * one))
+        self.units.insert(name.to_owned(), self.rate_unit().into());
+        self.finite(name, value)
     }
 
     /// Adds a finite value, or null with the reason.
@@ -190,7 +160,7 @@ impl Fields {
 
     /// The finished object, with `units` and `why`.
     pub fn finish(mut self) -> Json {
-        if matches!(self.of, FieldUnits::System(_)) {
+        if self.study.is_some() {
             let lists = self.object.iter().flat_map(|(name, value)| arrays(name, value));
             let without: Vec<String> = lists.filter(|path| !self.why.contains_key(path)).collect();
             for path in without {
@@ -206,28 +176,16 @@ impl Fields {
         Json::Object(self.object)
     }
 
-    /// What one number of the equations is in the units of the study, with the unit; `None` in a study without units.
-    pub(crate) fn one_with_unit(&self, quantity: Quantity) -> Option<(f64, &'static str)> {
-        match self.of {
-            FieldUnits::Scaled(scales) => scales?.own(quantity),
-            FieldUnits::System(units) => {
-                quantity.si_unit().and_then(|_| Some((1.0, units.unit(quantity)?)))
-            }
-        }
+    /// The unit of a quantity in a study with units; `None` in others, and of a ratio.
+    pub(crate) fn unit_of_study(&self, quantity: Quantity) -> Option<&'static str> {
+        quantity.si_unit().and(self.study?.unit(quantity))
     }
 
-    /// What one number of the equations is in the units of the study, with the unit; a ratio has none.
-    fn one(&self, name: &str, quantity: Quantity) -> (f64, String) {
-        let is_ratio = matches!(quantity, Quantity::FrequencyRatio | Quantity::DampingRatio)
-            && name.ends_with("ratio");
-        match self.of {
-            FieldUnits::System(units) => (1.0, units.unit(quantity).unwrap_or("1").to_owned()),
-            FieldUnits::Scaled(scales) => {
-                match scales.and_then(|scales| scales.own(quantity)).filter(|_| !is_ratio) {
-                    Some((one, unit)) => (one, unit.to_owned()),
-                    None => (1.0, quantity.scaled_unit().to_owned()),
-                }
-            }
+    /// The unit of a quantity.
+    fn unit(&self, quantity: Quantity) -> &'static str {
+        match self.study {
+            Some(units) => units.unit(quantity).unwrap_or("1"),
+            None => quantity.scaled_unit(),
         }
     }
 
@@ -295,9 +253,9 @@ mod tests {
 
     #[test]
     fn a_name_with_two_units_has_both() {
-        let mut fields = Fields::new(None);
+        let mut fields = Fields::new();
         for (name, unit) in [("force", "N"), ("voltage", "V")] {
-            let mut inner = Fields::new(None);
+            let mut inner = Fields::new();
             inner.measured("peak", unit, 1.0);
             fields.nested(name, inner);
         }
@@ -311,10 +269,9 @@ mod tests {
 
     #[test]
     fn a_study_in_si_has_its_numbers_in_si() {
-        let scales = Scales::new(2.0, 200.0).expect("valid");
-        let mut fields = Fields::new(Some(scales));
-        fields.number("time", Quantity::Time, 30.0).number("stick_fraction", Quantity::Ratio, 0.5);
-        let mut inner = Fields::new(Some(scales));
+        let mut fields = Fields::in_units(UnitSystem::Si);
+        fields.number("time", Quantity::Time, 3.0).number("stick_fraction", Quantity::Ratio, 0.5);
+        let mut inner = Fields::in_units(UnitSystem::Si);
         inner.known("residual_vibration", Quantity::Ratio, Err("nothing to quench".into()));
         fields.list("points", [inner]);
         let json = fields.finish();
@@ -329,7 +286,7 @@ mod tests {
 
     #[test]
     fn values_that_are_not_finite_are_null_with_a_reason() {
-        let mut fields = Fields::new(None);
+        let mut fields = Fields::new();
         fields.number("growth", Quantity::Ratio, f64::NAN);
         let json = fields.finish();
         assert!(json["growth"].is_null() && json["why"]["growth"].is_string());

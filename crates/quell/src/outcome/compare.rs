@@ -44,7 +44,7 @@ impl Outcome for ComparedStudy {
     }
 
     fn json(&self) -> Json {
-        let mut fields = Fields::new(None);
+        let mut fields = Fields::new();
         fields.plain("ok", true).plain("sentence", sentence(&self.done));
         fields.nested("before", record(&self.done.before));
         match &self.done.after {
@@ -188,7 +188,7 @@ fn put_decibels(fields: &mut Fields, name: &str, unit: &str, value: f64) {
 }
 
 fn reduction(found: Reduction) -> Fields {
-    let mut fields = Fields::new(None);
+    let mut fields = Fields::new();
     put_decibels(&mut fields, "measured", "dB", found.measured);
     put_decibels(&mut fields, "predicted", "dB", found.predicted);
     put_decibels(&mut fields, "difference", "dB", found.measured - found.predicted);
@@ -198,7 +198,7 @@ fn reduction(found: Reduction) -> Fields {
 fn record(record: &ComparedRecord) -> Fields {
     let unit = record.unit.unwrap_or("1");
     let hertz = record.frequency_unit.unwrap_or("1/time");
-    let mut fields = Fields::new(None);
+    let mut fields = Fields::new();
     fields
         .plain("file", record.file.display().to_string())
         .plain("columns", record.columns.to_vec())
@@ -222,7 +222,7 @@ fn record(record: &ComparedRecord) -> Fields {
     let reference = format!("dB re 1 {}", record.unit.unwrap_or("unit of the readings"));
     let lines =
         record.lines.iter().map(|line| {
-            let mut entry = Fields::new(None);
+            let mut entry = Fields::new();
             entry.measured("frequency", hertz, line.frequency());
             let level = |peak: Option<quell_numerics::spectrum::Peak>| {
                 peak.map(|peak| decibels(peak.amplitude))

@@ -105,7 +105,7 @@ fn json(done: &FreeDecay) -> Json {
     let best = done.best();
     let unit = done.record.unit.unwrap_or("1");
     let named = done.named(best);
-    let mut fields = Fields::new(None);
+    let mut fields = Fields::new();
     fields.plain("ok", true).plain("sentence", sentence(done)).plain("law", best.law.name());
     fields.nested("parameters", parameters(&named, |place| FreeDecay::has(best, place)));
     numbers(&mut fields, &named, unit);
@@ -115,7 +115,7 @@ fn json(done: &FreeDecay) -> Json {
     fields.plain("recorded_quantity", done.record.quantity.name());
     let compared = done.fits.iter().enumerate().map(|(place, fit)| {
         let named = done.named(fit);
-        let mut entry = Fields::new(None);
+        let mut entry = Fields::new();
         entry.plain("law", fit.law.name());
         entry.nested("parameters", parameters(&named, |place| FreeDecay::has(fit, place)));
         criteria(&mut entry, &named, unit);

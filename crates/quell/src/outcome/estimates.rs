@@ -13,7 +13,7 @@ use crate::words::digits;
 
 /// The parameters as an object, those for which `shown` holds.
 pub(super) fn parameters(named: &NamedEstimates, shown: impl Fn(usize) -> bool) -> Fields {
-    let mut inner = Fields::new(None);
+    let mut inner = Fields::new();
     for place in (0..named.parameters.len()).filter(|place| shown(*place)) {
         let parameter = &named.parameters[place];
         let error = named.error(place);

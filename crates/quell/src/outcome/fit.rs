@@ -115,7 +115,7 @@ fn sentence(done: &FrictionFit) -> String {
 
 /// The parameters as an object; reasons for missing standard errors are recorded under `prefix`.
 fn parameters(done: &FrictionFit, fit: &LawFit) -> Fields {
-    let mut inner = Fields::new(None);
+    let mut inner = Fields::new();
     for fitted in &fit.parameters {
         let key = fitted.parameter.key();
         let error = fitted.certainty.standard_error();
@@ -147,7 +147,7 @@ fn numbers(fields: &mut Fields, done: &FrictionFit, fit: &LawFit) {
 
 fn json(done: &FrictionFit) -> Json {
     let best = done.best();
-    let mut fields = Fields::new(None);
+    let mut fields = Fields::new();
     fields.plain("ok", true);
     fields.plain("sentence", sentence(done));
     numbers(&mut fields, done, best);
@@ -172,7 +172,7 @@ fn json(done: &FrictionFit) -> Json {
         .iter()
         .enumerate()
         .map(|(place, fit)| {
-            let mut entry = Fields::new(None);
+            let mut entry = Fields::new();
             numbers(&mut entry, done, fit);
             if let (Some(weights), Ok(least), Ok(aic)) = (&done.weights, best.aic(), fit.aic()) {
                 let weight = weights[place];

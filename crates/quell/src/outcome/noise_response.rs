@@ -30,7 +30,7 @@ impl Presented<SystemSetup> for NoiseResponse {
 
     fn json(&self, study: &SystemStudy) -> Json {
         let sentence = Presented::sentence(self, study).unwrap_or_default();
-        self.json(|| Fields::of_system(study.units()), sentence)
+        self.json(|| Fields::in_units(study.units()), sentence)
     }
 
     fn sentence(&self, study: &SystemStudy) -> Option<String> {

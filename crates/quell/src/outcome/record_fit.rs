@@ -30,7 +30,7 @@ impl Outcome for RecordFit {
 
     fn json(&self) -> Json {
         let unit = self.record.unit.unwrap_or("1");
-        let mut fields = Fields::new(None);
+        let mut fields = Fields::new();
         fields.plain("ok", true).plain("sentence", sentence(self));
         fields.nested("parameters", parameters(&self.named, |_| true));
         numbers(&mut fields, &self.named, unit);
@@ -47,8 +47,8 @@ impl Outcome for RecordFit {
                 .unknown("shift_from", "the shift is not free: the record begins with the run"),
         };
         let others = self.others.iter().map(|other| {
-            let mut entry = Fields::new(None);
-            let mut values = Fields::new(None);
+            let mut entry = Fields::new();
+            let mut values = Fields::new();
             for (parameter, value) in self.named.parameters.iter().zip(&other.values) {
                 values.measured(&parameter.name, &parameter.unit, *value);
             }

@@ -297,8 +297,8 @@ fn frontier(
     let noun = PlotAxis::new(format!("least {}", minimise.name().replace('-', " ")));
     let (vertical, up) = match minimise {
         DesignObjective::Amplitude => (axis(&done.amplitude.path), done.amplitude.per_unit),
-        _ => match study.fields().one_with_unit(quantity_of(study, minimise)) {
-            Some((one, unit)) => (noun.unit(unit), one),
+        _ => match study.fields().unit_of_study(quantity_of(study, minimise)) {
+            Some(unit) => (noun.unit(unit), 1.0),
             None => (noun, 1.0),
         },
     };

@@ -139,7 +139,7 @@ impl StudyReport {
     pub fn json(&self) -> Json {
         let answers = self.answers.iter().map(|answer| {
             let chosen = answer.chosen.as_deref().ok_or("nothing was chosen for the report");
-            let mut inner = Fields::new(None);
+            let mut inner = Fields::new();
             inner
                 .plain("verb", answer.verb)
                 .plain("heading", answer.heading)
@@ -149,7 +149,7 @@ impl StudyReport {
                 .plain("facts", answer.facts.clone());
             inner
         });
-        let mut fields = Fields::new(None);
+        let mut fields = Fields::new();
         fields
             .plain("ok", true)
             .known_plain("title", self.study.title().ok_or("the study has no title"))

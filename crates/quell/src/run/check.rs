@@ -18,7 +18,7 @@ use crate::study::{GivenSize, SystemStart, SystemStudy};
 /// The study as JSON.
 pub fn json(study: &SystemStudy) -> Json {
     let system = study.system();
-    let mut fields = Fields::of_system(study.units());
+    let mut fields = Fields::in_units(study.units());
     fields.plain("ok", true);
     match study.title() {
         Some(title) => fields.plain("title", title),
@@ -45,7 +45,7 @@ pub fn json(study: &SystemStudy) -> Json {
     fields.list("given_amplitudes", sizes.collect::<Vec<_>>());
     fields.plain("observe", study.observe()).plain("initial", initial(study.initial()));
     let axes = study.sweeps().iter().map(|sweep| {
-        let mut inner = Fields::of_system(study.units());
+        let mut inner = Fields::in_units(study.units());
         inner
             .plain("parameter", sweep.path.as_str())
             .plain("unit", sweep.target.unit)
@@ -84,7 +84,7 @@ fn put_over_time(fields: &mut Fields, name: &str, quantity: Quantity, profile: &
 
 /// Load, surface velocity, law and stiffness of a contact.
 fn contact_fields(study: &SystemStudy, contact: &Contact) -> Fields {
-    let empty = || Fields::of_system(study.units());
+    let empty = || Fields::in_units(study.units());
     let mut fields = empty();
     fields
         .plain("name", contact.name.as_str())
@@ -106,7 +106,7 @@ fn contact_fields(study: &SystemStudy, contact: &Contact) -> Fields {
 
 /// Target and numbers of a wave of an input.
 fn dither_fields(study: &SystemStudy, input: &Input, wave: &Wave) -> Fields {
-    let mut fields = Fields::of_system(study.units());
+    let mut fields = Fields::in_units(study.units());
     let name =
         |contact: usize| study.system().contacts.get(contact).map(|known| known.name.clone());
     match &input.target {
@@ -141,7 +141,7 @@ fn dither_fields(study: &SystemStudy, input: &Input, wave: &Wave) -> Fields {
 fn size_fields(study: &SystemStudy, given: &GivenSize) -> Fields {
     let force = study.units().unit(Quantity::Force).unwrap_or("1");
     let unit = if given.key.unit.is_empty() { force } else { given.key.unit };
-    let mut fields = Fields::of_system(study.units());
+    let mut fields = Fields::in_units(study.units());
     fields
         .plain("key", given.path.as_str())
         .measured("value", unit, given.value)

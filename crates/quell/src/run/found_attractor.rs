@@ -111,14 +111,14 @@ impl FoundAttractor {
 
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
             .plain("start", self.start.clone());
         match &self.end {
             Ok(end) => {
-                let mut inner = Fields::of_system(study.units());
+                let mut inner = Fields::in_units(study.units());
                 put_attractor(&mut inner, &end.attractor, study);
                 fields.nested("attractor", inner);
                 fields.plain("periods_until_settled", end.periods);
@@ -130,7 +130,7 @@ impl FoundAttractor {
         }
         match &self.exponents {
             Some(Ok(measured)) => {
-                let mut inner = Fields::of_system(study.units());
+                let mut inner = Fields::in_units(study.units());
                 measured.put(&mut inner);
                 fields.nested("lyapunov", inner);
             }

@@ -121,7 +121,7 @@ impl WindowedResponse {
             .known("strongest_amplitude", Quantity::Displacement, line(|line| line.amplitude))
             .known("strongest_frequency", Quantity::FrequencyRatio, line(|line| line.frequency));
         let contacts = self.contacts.iter().map(|(name, means)| {
-            let mut inner = Fields::of_system(units);
+            let mut inner = Fields::in_units(units);
             inner.plain("name", name.clone());
             put_means(&mut inner, Ok(*means));
             inner
@@ -138,7 +138,7 @@ impl WindowedResponse {
 
     /// The whole answer as JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields.plain("ok", true).plain("sentence", self.sentence(study));
         self.put(&mut fields, study.units());
         fields.plain("warnings", self.warnings.clone());

@@ -102,7 +102,7 @@ impl Portrait {
         };
         Share::put_quiet(fields, self.quiet);
         let attractors = self.basins.iter().map(|basin| {
-            let mut inner = Fields::of_system(study.units());
+            let mut inner = Fields::in_units(study.units());
             basin.share.put(&mut inner);
             inner.plain("periods_to_settle", basin.periods);
             put_attractor(&mut inner, &basin.attractor, study);
@@ -110,7 +110,7 @@ impl Portrait {
         });
         let attractors: Vec<Fields> = attractors.collect();
         fields.list("attractors", attractors).plain("unknown_starts", self.unknown.starts);
-        let mut unknown = Fields::of_system(study.units());
+        let mut unknown = Fields::in_units(study.units());
         self.unknown.put(&mut unknown);
         fields.nested("unknown", unknown);
     }
@@ -238,7 +238,7 @@ impl Basins {
 
     /// As JSON: the fields of a single portrait, or a list of portraits.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
@@ -271,7 +271,7 @@ impl Basins {
                 let path = over.as_ref().map_or("", |over| over.parameter.as_str());
                 fields.plain("parameter", path).plain("unit", study.unit_of(path).unwrap_or("1"));
                 let portraits = portraits.iter().map(|portrait| {
-                    let mut inner = Fields::of_system(study.units());
+                    let mut inner = Fields::in_units(study.units());
                     inner.plain("value", portrait.value);
                     portrait.put(&mut inner, study);
                     inner

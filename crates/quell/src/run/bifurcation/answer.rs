@@ -111,7 +111,7 @@ impl Bifurcation {
 
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
@@ -130,7 +130,7 @@ impl Bifurcation {
             all.map(|(before, after)| {
                 let ends = (points[before].value, points[after].value);
                 let to_quiet = points[after].quiet() == Some(true);
-                jump(Fields::of_system(study.units()), branch.direction, ends, to_quiet)
+                jump(Fields::in_units(study.units()), branch.direction, ends, to_quiet)
             })
         });
         let hysteresis = (self.branches.len() == 2).then_some(self.hysteresis.as_slice());
@@ -232,7 +232,7 @@ fn rows(study: &SystemStudy, point: &SweepPoint) -> Vec<[f64; 11]> {
 }
 
 fn put(study: &SystemStudy, point: &SweepPoint) -> Fields {
-    let mut fields = Fields::of_system(study.units());
+    let mut fields = Fields::in_units(study.units());
     fields.plain("value", point.value);
     match &point.local {
         Ok(verdict) => fields.plain("local_verdict", *verdict),

@@ -37,7 +37,7 @@ impl LimitAveragedCycles {
     }
 
     pub(super) fn fields(&self, study: &SystemStudy, largest: f64) -> Fields {
-        let empty = || Fields::of_system(study.units());
+        let empty = || Fields::in_units(study.units());
         let length = self.displacement * study.observe().first().map_or(1.0, |row| row.abs());
         let stable = self.cycles.iter().find(|cycle| cycle.stable).map(|cycle| cycle.amplitude);
         let largest = in_units(study.units(), Quantity::Velocity, largest);

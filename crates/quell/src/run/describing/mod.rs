@@ -240,7 +240,7 @@ impl DescribedContacts {
 
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let empty = || Fields::of_system(study.units());
+        let empty = || Fields::in_units(study.units());
         let mut fields = empty();
         let observe = study.observe();
         let stable = self.stable_cycle(study);

@@ -154,7 +154,7 @@ impl StudyWithDesign for SystemStudy {
     }
 
     fn fields(&self) -> Fields {
-        Fields::of_system(self.units())
+        Fields::in_units(self.units())
     }
 
     fn in_words(&self, quantity: Quantity, value: f64) -> String {
@@ -209,7 +209,7 @@ impl StudyWithDesign for DiscStudy {
 
     /// The amplitude is relative to the friction, and has no SI value.
     fn fields(&self) -> Fields {
-        Fields::new(None)
+        Fields::new()
     }
 
     fn in_words(&self, _: Quantity, value: f64) -> String {

@@ -79,7 +79,7 @@ fn one_mass(system: &System) -> Result<quell_model::OneMass, Failure> {
 impl ContactCurves {
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let empty = || Fields::of_system(study.units());
+        let empty = || Fields::in_units(study.units());
         let mut fields = empty();
         fields.plain("ok", true);
         let contacts = self.contacts.iter().map(|contact| {

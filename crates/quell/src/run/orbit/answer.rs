@@ -266,7 +266,7 @@ impl PeriodicResponse {
 
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
@@ -279,7 +279,7 @@ impl PeriodicResponse {
             self.put_cycles(&mut fields, study);
         }
         let tried = self.tried.iter().map(|tried| {
-            let mut inner = Fields::of_system(study.units());
+            let mut inner = Fields::in_units(study.units());
             inner.plain("start", tried.start.clone()).plain("outcome", tried.outcome.clone());
             inner
         });
@@ -305,7 +305,7 @@ impl PeriodicResponse {
             return;
         };
         let cycles = cycles.iter().map(|cycle| {
-            let mut inner = Fields::of_system(study.units());
+            let mut inner = Fields::in_units(study.units());
             inner.plain("sentence", sentence(study, cycle));
             put_found(&mut inner, study, cycle);
             inner
@@ -386,7 +386,7 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
     let samples = &found.samples;
     let contacts = study.system().contacts.iter().zip(samples.means()).enumerate();
     let contacts = contacts.map(|(index, (contact, means))| {
-        let mut inner = Fields::of_system(study.units());
+        let mut inner = Fields::in_units(study.units());
         let count = |kind: EventKind| {
             let of = |event: &&RecordedEvent| event.contact == index && event.kind == kind;
             orbit.events.iter().filter(of).count()

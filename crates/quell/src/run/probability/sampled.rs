@@ -197,7 +197,7 @@ impl SampledKind for SystemStudy {
     }
 
     fn fields(&self) -> Fields {
-        Fields::of_system(self.units())
+        Fields::in_units(self.units())
     }
 
     fn force_in_words(&self, force: f64) -> String {
@@ -263,7 +263,7 @@ impl SampledKind for DiscStudy {
     }
 
     fn fields(&self) -> Fields {
-        Fields::new(None)
+        Fields::new()
     }
 
     fn force_in_words(&self, force: f64) -> String {

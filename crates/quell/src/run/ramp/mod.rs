@@ -312,7 +312,7 @@ impl Ramp {
 
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let empty = || Fields::of_system(study.units());
+        let empty = || Fields::in_units(study.units());
         let quantity = self.ramped.quantity;
         let mut fields = empty();
         let (least, largest) = self.ramped.range();

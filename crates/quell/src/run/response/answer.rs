@@ -18,7 +18,7 @@ impl MeasuredResponse {
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let (units, response) = (study.units(), &self.response);
-        let mut fields = Fields::of_system(units);
+        let mut fields = Fields::in_units(units);
         fields.plain("ok", true).plain("sentence", self.sentence(study));
         match response.effect {
             Effect::Unknown(why) => fields.plain("effect", "unknown").why("effect", uncertain(why)),
@@ -43,7 +43,7 @@ impl MeasuredResponse {
         put_ending(&mut fields, "", &with.ending);
         put_ending(&mut fields, "undithered_", &without.ending);
         let peaks = with.spectrum.peaks(PEAK_FLOOR).into_iter().map(|peak| {
-            let mut inner = Fields::of_system(units);
+            let mut inner = Fields::in_units(units);
             inner.number("frequency", Quantity::FrequencyRatio, peak.frequency).number(
                 "amplitude",
                 Quantity::Displacement,
@@ -65,7 +65,7 @@ impl MeasuredResponse {
 
     fn put_contacts(&self, study: &SystemStudy) -> Vec<Fields> {
         let contacts = study.system().contacts.iter().enumerate().map(|(index, contact)| {
-            let mut inner = Fields::of_system(study.units());
+            let mut inner = Fields::in_units(study.units());
             inner.plain("name", contact.name.clone());
             let means: ContactMeans = self.response.dithered.contacts[index];
             put_means(&mut inner, Ok(means));
@@ -145,7 +145,7 @@ fn put_record(fields: &mut Fields, prefix: &str, record: &SettledRecord) {
 /// The cost of every dither.
 fn put_inputs(units: UnitSystem, record: &SettledRecord) -> Vec<Fields> {
     let inputs = record.inputs.iter().map(|cost| {
-        let mut inner = Fields::of_system(units);
+        let mut inner = Fields::in_units(units);
         let of = |pick: fn(&InputCost) -> f64| {
             cost.as_ref().map(pick).map_err(|why| why.why().to_owned())
         };

@@ -137,7 +137,7 @@ impl Simulation {
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let (system, units) = (study.system(), study.units());
-        let mut fields = Fields::of_system(units);
+        let mut fields = Fields::in_units(units);
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
@@ -149,10 +149,10 @@ impl Simulation {
         fields.plain("events", events.collect::<Vec<Json>>());
         fields.list("contacts", self.put_contacts(system, units));
         if let Some(found) = &self.manoeuvre {
-            fields.nested("manoeuvre", found.fields(|| Fields::of_system(units)));
+            fields.nested("manoeuvre", found.fields(|| Fields::in_units(units)));
         }
         if let Some(sound) = &self.sound {
-            let mut inner = Fields::of_system(units);
+            let mut inner = Fields::in_units(units);
             sound.state(&mut inner);
             fields.nested("sound", inner);
         }
@@ -170,7 +170,7 @@ impl Simulation {
         let (system, units) = (study.system(), study.units());
         let mut fields = moment(study, self.end.time, &self.end.state);
         let contacts = system.contacts.iter().zip(&self.end.contacts).map(|(contact, end)| {
-            let mut inner = Fields::of_system(units);
+            let mut inner = Fields::in_units(units);
             inner
                 .plain("name", contact.name.clone())
                 .number("slip_velocity", Quantity::Velocity, end.slip_velocity)
@@ -197,7 +197,7 @@ impl Simulation {
     /// Counts and means of every contact over the run.
     fn put_contacts(&self, system: &System, units: UnitSystem) -> Vec<Fields> {
         let contacts = system.contacts.iter().enumerate().map(|(index, contact)| {
-            let mut inner = Fields::of_system(units);
+            let mut inner = Fields::in_units(units);
             inner
                 .plain("name", contact.name.clone())
                 .nested("event_counts", put_counts(units, &self.history.counts[index]));
@@ -211,7 +211,7 @@ impl Simulation {
 
 /// A moment of the motion: its time, the observed displacement and velocity, and every number of the state.
 fn moment(study: &SystemStudy, time: f64, state: &[f64]) -> Fields {
-    let mut fields = Fields::of_system(study.units());
+    let mut fields = Fields::in_units(study.units());
     let (displacement, velocity) = observed_state(study, state);
     let no_rate =
         || "the rate of a state of first-order equations is no part of the state".to_owned();
@@ -242,7 +242,7 @@ fn event_of(study: &SystemStudy, event: &RecordedEvent) -> Json {
 
 /// Counts kind by kind.
 fn put_counts(units: UnitSystem, counts: &[u64; KINDS.len()]) -> Fields {
-    let mut fields = Fields::of_system(units);
+    let mut fields = Fields::in_units(units);
     for (kind, count) in KINDS.iter().zip(counts) {
         fields.plain(kind.name(), *count);
     }

@@ -14,7 +14,7 @@ impl SlidingStability {
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let units = study.units();
-        let mut fields = Fields::of_system(units);
+        let mut fields = Fields::in_units(units);
         let Growth { rate, error, frequency } = self.spectrum.growth;
         fields
             .plain("ok", true)
@@ -55,7 +55,7 @@ impl SlidingStability {
             }
             Ok(undithered) => {
                 let Growth { rate, error, frequency } = undithered.growth;
-                let mut inner = Fields::of_system(units);
+                let mut inner = Fields::in_units(units);
                 inner
                     .plain("verdict", undithered.growth.verdict().name())
                     .rate("growth_rate", Ok(rate))
@@ -83,7 +83,7 @@ pub(crate) fn put_critical(
         }
     };
     let items = critical.iter().enumerate().map(|(index, found)| {
-        let mut inner = Fields::of_system(units);
+        let mut inner = Fields::in_units(units);
         inner
             .number("amplitude", Quantity::Force, found.amplitude)
             .known("amplitude_error", Quantity::Force, error(index, found))
@@ -98,7 +98,7 @@ pub(crate) fn put_critical(
 
 /// One contact.
 pub(crate) fn put_contact(name: &str, units: UnitSystem, found: &SlidingContact) -> Fields {
-    let mut fields = Fields::of_system(units);
+    let mut fields = Fields::in_units(units);
     fields.plain("name", name).number("friction", Quantity::Force, found.friction).number(
         "normal",
         Quantity::Force,

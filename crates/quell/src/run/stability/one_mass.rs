@@ -158,7 +158,7 @@ impl LimitStability {
     }
 
     fn fields(&self, study: &SystemStudy, of: &OneMassStability) -> Fields {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields.plain("verdict", self.verdict());
         let value = |field: fn(&Criterion) -> f64| {
             self.criterion.as_ref().map(field).map_err(ToString::to_string)
@@ -177,7 +177,7 @@ impl LimitStability {
             Ok(critical) => {
                 let items = critical.iter().map(|critical| {
                     let error = critical.error / critical.amplitude_ratio * critical.amplitude;
-                    let mut inner = Fields::of_system(study.units());
+                    let mut inner = Fields::in_units(study.units());
                     inner
                         .number("amplitude", Quantity::Force, of.amplitude * critical.amplitude)
                         .number("amplitude_error", Quantity::Force, of.amplitude * error)
@@ -214,7 +214,7 @@ fn put_bands(
         }
     };
     let items = bands.iter().map(|band| {
-        let mut inner = Fields::of_system(study.units());
+        let mut inner = Fields::in_units(study.units());
         let no_end = || format!("no upper end was found {LOOKED_AT}");
         inner.number("lower", Quantity::Velocity, band.lower).known(
             "upper",

@@ -117,7 +117,7 @@ pub(in crate::run) fn put_attractor(
         }
     }
     let contacts = study.system().contacts.iter().zip(&attractor.stick).map(|(contact, share)| {
-        let mut inner = Fields::of_system(study.units());
+        let mut inner = Fields::in_units(study.units());
         inner.plain("name", contact.name.clone()).number("stick_fraction", Quantity::Ratio, *share);
         inner
     });

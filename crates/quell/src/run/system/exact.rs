@@ -58,7 +58,7 @@ impl ExactStability {
     pub fn json(&self, study: &SystemStudy) -> Json {
         let units = study.units();
         let Growth { rate, error, frequency } = self.orbit.growth();
-        let mut fields = Fields::of_system(units);
+        let mut fields = Fields::in_units(units);
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
@@ -71,7 +71,7 @@ impl ExactStability {
             .plain("state", self.orbit.state.clone())
             .plain("residual", self.orbit.residual);
         let exponents = self.orbit.exponents.iter().map(|found: &SlipExponent| {
-            let mut inner = Fields::of_system(units);
+            let mut inner = Fields::in_units(units);
             inner
                 .rate("growth_rate", Ok(found.exponent.re))
                 .rate("growth_rate_error", Ok(found.error))

@@ -111,7 +111,7 @@ impl MeasuredStability {
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let units = study.units();
-        let mut fields = Fields::of_system(units);
+        let mut fields = Fields::in_units(units);
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
@@ -140,7 +140,7 @@ impl MeasuredStability {
                 fields.unknown("undithered", why).unknown("critical_amplitudes", why);
             }
             Some(MeasuredDither { undithered, critical, interpolation }) => {
-                let mut inner = Fields::of_system(units);
+                let mut inner = Fields::in_units(units);
                 let verdict: Verdict = undithered.verdict();
                 inner
                     .plain("verdict", verdict.name())

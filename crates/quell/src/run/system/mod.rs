@@ -123,7 +123,7 @@ pub(crate) fn force(units: UnitSystem, value: f64) -> String {
 
 /// One small motion.
 pub(crate) fn put_motion(system: &System, units: UnitSystem, motion: &SmallMotion) -> Fields {
-    let mut fields = Fields::of_system(units);
+    let mut fields = Fields::in_units(units);
     fields
         .rate("growth_rate", Ok(motion.eigenvalue.re))
         .number("frequency", Quantity::FrequencyRatio, motion.frequency())
@@ -139,7 +139,7 @@ pub(crate) fn put_motion(system: &System, units: UnitSystem, motion: &SmallMotio
         fields.unknown("friction_work", why);
     } else {
         let work = contacts.map(|(contact, share)| {
-            let mut inner = Fields::of_system(units);
+            let mut inner = Fields::in_units(units);
             inner.plain("contact", contact.name.clone()).rate("growth_rate", Ok(*share));
             inner
         });

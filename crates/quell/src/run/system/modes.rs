@@ -52,10 +52,10 @@ pub(crate) fn natural(motion: &SmallMotion) -> f64 {
 impl SystemModes {
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields.plain("ok", true).plain("coordinates", study.system().structure.names());
         let modes = self.modes.iter().map(|motion| {
-            let mut inner = Fields::of_system(study.units());
+            let mut inner = Fields::in_units(study.units());
             let shape: Vec<f64> = motion.shape.iter().map(|z| z.re).collect();
             let imaginary: Vec<f64> = motion.shape.iter().map(|z| z.im).collect();
             inner

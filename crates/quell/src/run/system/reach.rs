@@ -243,7 +243,7 @@ impl Reaches {
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let units = study.units();
-        let mut fields = Fields::of_system(units);
+        let mut fields = Fields::in_units(units);
         let first = self.frequencies.first().copied().unwrap_or(0.0);
         let last = self.frequencies.last().copied().unwrap_or(0.0);
         fields
@@ -252,12 +252,12 @@ impl Reaches {
             .number("from", Quantity::FrequencyRatio, first)
             .number("to", Quantity::FrequencyRatio, last);
         let pairs = self.pairs.iter().map(|pair| {
-            let mut inner = Fields::of_system(units);
+            let mut inner = Fields::in_units(units);
             let contact = &study.system().contacts[pair.contact];
             let velocity = contact.surface_velocity.mean().abs();
             inner.plain("dither", pair.dither).plain("contact", contact.name.clone());
             let extremes = pair.extremes.iter().map(|at| {
-                let mut item = Fields::of_system(units);
+                let mut item = Fields::in_units(units);
                 item.plain("kind", if at.peak { "peak" } else { "dip" })
                     .number("frequency", Quantity::FrequencyRatio, at.frequency)
                     .plain("out_of_reach", at.out_of_reach);

@@ -109,7 +109,7 @@ impl Thresholds {
     pub fn json(&self, study: &SystemStudy) -> Json {
         let (from, to) = self.request.window;
         let unit = study.unit_of(&self.request.parameter).unwrap_or("1");
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
@@ -133,7 +133,7 @@ impl Thresholds {
                 fields.list("signature_changes", changes);
                 let gaps = local.gaps.iter().map(|gap| {
                     let [low, high] = gap.ends();
-                    let mut inner = Fields::of_system(study.units());
+                    let mut inner = Fields::in_units(study.units());
                     inner.measured("from", unit, low).measured("to", unit, high);
                     inner
                 });
@@ -152,7 +152,7 @@ impl Thresholds {
     }
 
     fn put_runs(&self, fields: &mut Fields, study: &SystemStudy, unit: &str) {
-        let mut at_from = Fields::of_system(study.units());
+        let mut at_from = Fields::in_units(study.units());
         let first = self.local.as_ref().map(|local| local.branch.first());
         match first {
             Ok(Some(point)) => at_from.plain("verdict", OrbitVerdict::of(point.radius, 0.0).name()),
@@ -162,7 +162,7 @@ impl Thresholds {
         for (protocol, switches) in &self.runs {
             at_from.plain(protocol.name(), self.words(&switches.first));
             let changes = switches.changes.iter().map(|change| {
-                let mut inner = Fields::of_system(study.units());
+                let mut inner = Fields::in_units(study.units());
                 inner
                     .measured("value", unit, change.value)
                     .measured("error", unit, change.error)
@@ -188,7 +188,7 @@ impl Thresholds {
 /// One change of the events.
 fn put_change(study: &SystemStudy, unit: &str, change: &SignatureChange) -> Fields {
     let words = |side: &Option<MotionSignature>| events_in_words(study, side.as_ref());
-    let mut inner = Fields::of_system(study.units());
+    let mut inner = Fields::in_units(study.units());
     inner
         .measured("value", unit, change.value)
         .plain("below", words(&change.below))
@@ -205,7 +205,7 @@ pub(crate) fn events_in_words(study: &SystemStudy, side: Option<&MotionSignature
 
 /// One threshold; `unit` is that of the parameter.
 fn put(study: &SystemStudy, unit: &str, found: &Threshold) -> Fields {
-    let mut fields = Fields::of_system(study.units());
+    let mut fields = Fields::in_units(study.units());
     fields
         .measured("value", unit, found.value)
         .measured("error", unit, found.error)

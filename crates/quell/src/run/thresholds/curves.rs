@@ -304,7 +304,7 @@ impl Curves {
     pub fn json(&self, study: &SystemStudy) -> Json {
         let CurvesRequest { parameter, along, window, between } = &self.request;
         let [unit, across] = [parameter, along].map(|path| study.unit_of(path).unwrap_or("1"));
-        let object = || Fields::of_system(study.units());
+        let object = || Fields::in_units(study.units());
         let curves = self.found.curves.iter().map(|curve| {
             let points = || curve.points.iter();
             let moduli: Vec<f64> = points().map(|point| point.radius).collect();

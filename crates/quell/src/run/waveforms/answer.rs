@@ -20,7 +20,7 @@ fn until(found: &Result<LeastDither, String>, of: &str) -> Result<f64, String> {
 impl WaveformComparison {
     /// The comparison as JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         fields.plain("ok", true).plain("sentence", self.sentence(study));
         self.put_rows(&mut fields, study.units());
         fields.plain("warnings", self.warnings(study));
@@ -58,7 +58,7 @@ impl WaveformComparison {
 
     /// Puts the rows and the best of each column.
     fn put_rows(&self, fields: &mut Fields, units: UnitSystem) {
-        let empty = || Fields::of_system(units);
+        let empty = || Fields::in_units(units);
         let rows = self.rows.iter().map(|row| {
             let mut inner = empty();
             inner

@@ -109,7 +109,7 @@ impl TrackedStability {
 
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         let TrackRequest { parameter, window: (from, to), along } = &self.request;
         let unit = study.unit_of(parameter).unwrap_or("1");
         fields
@@ -135,7 +135,7 @@ impl TrackedStability {
             fields.list("curves", curves.collect::<Vec<_>>());
         }
         let rests = self.rests.iter().map(|SurfaceAtRest { value, contact }| {
-            let mut inner = Fields::of_system(study.units());
+            let mut inner = Fields::in_units(study.units());
             inner.measured("value", unit, *value).plain("contact", contact.clone());
             inner
         });
@@ -162,7 +162,7 @@ impl TrackedStability {
 
     /// The verdict at the first value of the window.
     fn at_from(&self, study: &SystemStudy) -> Fields {
-        let mut fields = Fields::of_system(study.units());
+        let mut fields = Fields::in_units(study.units());
         let from = self.request.window.0;
         let first = self.tracked.pieces.first().and_then(|piece| piece.first());
         match (first, self.tracked.unknown.first()) {
@@ -277,7 +277,7 @@ fn put(
     found: &ThresholdOfStability,
     first_lyapunov: &Result<FirstLyapunov, String>,
 ) -> Fields {
-    let mut fields = Fields::of_system(study.units());
+    let mut fields = Fields::in_units(study.units());
     fields
         .measured("value", unit, found.value)
         .measured("error", unit, found.error)
@@ -295,7 +295,7 @@ fn put_curve(study: &SystemStudy, [unit, along]: [&str; 2], curve: &StabilityCur
     let column = |of: &dyn Fn(&ThresholdOfStability) -> f64| -> Vec<f64> {
         curve.points.iter().map(|(_, found)| of(found)).collect()
     };
-    let mut fields = Fields::of_system(study.units());
+    let mut fields = Fields::in_units(study.units());
     if let Some((_, first)) = curve.points.first() {
         fields
             .plain("kind", first.change.name())
