@@ -36,11 +36,11 @@ impl Product {
 
     /// A figure of a disc.
     pub(super) fn of_disc(figure: Figure, caption: impl Into<String>, study: &DiscStudy) -> Self {
-        Self::table_of_disc(caption, study).drawn(figure)
+        Self::disc_table(caption, study).drawn(figure)
     }
 
     /// A table of a disc without a figure.
-    pub(super) fn table_of_disc(caption: impl Into<String>, study: &DiscStudy) -> Self {
+    pub(super) fn disc_table(caption: impl Into<String>, study: &DiscStudy) -> Self {
         Self {
             sources: cite::sources_of(&study.into()),
             ..Self::with_provenance(caption, study.text(), study.changes())

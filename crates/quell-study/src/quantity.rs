@@ -52,7 +52,7 @@ pub fn system_frequency(
 ///
 /// # Errors
 /// A complaint about `option`.
-pub fn of_system(
+pub fn number(
     text: &str,
     quantity: Option<Quantity>,
     units: UnitSystem,
@@ -79,13 +79,13 @@ pub fn of_system(
 /// Reads how long a run of a system lasts, in the unit of time of its study.
 ///
 /// # Errors
-/// As [`of_system`], and for a negative time.
-pub fn duration_of_system(
+/// As [`number`], and for a negative time.
+pub fn duration(
     text: &str,
     units: UnitSystem,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
-    let time = of_system(text, Some(Quantity::Time), units, option)?;
+    let time = number(text, Some(Quantity::Time), units, option)?;
     if time >= 0.0 {
         return Ok(time);
     }
@@ -114,13 +114,13 @@ pub fn frequency(
 /// Reads a slip velocity of a study, which is unknown where it could not be read: units are accepted then.
 ///
 /// # Errors
-/// As [`of_system`].
+/// As [`number`].
 pub fn velocity(
     text: &str,
     study: Option<&Study>,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
-    of_system(text, Some(Quantity::Velocity), units_of(study), option)
+    number(text, Some(Quantity::Velocity), units_of(study), option)
 }
 
 /// Reads an angular frequency of the dither of a study, which is unknown where it could not be read: units are accepted then.
@@ -236,7 +236,7 @@ mod tests {
     #[test]
     fn units_are_understood_in_a_study_in_si() {
         let time = |text| {
-            let read = duration_of_system(text, UnitSystem::Si, "--until");
+            let read = duration(text, UnitSystem::Si, "--until");
             read.map_err(|complaint| complaint.allowed)
         };
         assert_eq!(time("3"), Ok(3.0));
@@ -289,8 +289,7 @@ frequency_hz = 50
 
     #[test]
     fn units_need_a_study_in_si() {
-        let complaint =
-            duration_of_system("3s", UnitSystem::None, "--until").expect_err("no units");
+        let complaint = duration("3s", UnitSystem::None, "--until").expect_err("no units");
         assert!(complaint.allowed.contains("study with units") && complaint.key == "--until");
     }
 }

@@ -40,7 +40,7 @@ impl Arguments {
     fn request(&self, study: &SystemStudy) -> Result<AttractorRequest, Failure> {
         let mut complaints = Gathered::default();
         let mut time = |option, text: &Option<String>| {
-            let read = |text: &str| quantity::duration_of_system(text, study.units(), option);
+            let read = |text: &str| quantity::duration(text, study.units(), option);
             complaints.take(text.as_deref().map(read).transpose())
         };
         let settle = time("--settle", &self.settle);

@@ -100,7 +100,7 @@ impl Arguments {
         }
         let mut window = |option, text: &Option<String>, quantity| {
             let read =
-                |text: &str| quantity::of_system(text, Some(quantity), system.units(), option);
+                |text: &str| quantity::number(text, Some(quantity), system.units(), option);
             let found = text.as_deref().map(|text| ascending(option, text, read));
             complaints.take(found.transpose())
         };

@@ -101,7 +101,7 @@ impl Arguments {
         let until = self
             .until
             .as_deref()
-            .map(|text| quantity::duration_of_system(text, UnitSystem::Si, "--until"))
+            .map(|text| quantity::duration(text, UnitSystem::Si, "--until"))
             .transpose()?;
         Ok(MotionRequest { until, ..MotionRequest::default() })
     }

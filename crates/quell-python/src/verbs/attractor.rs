@@ -20,7 +20,7 @@ pub(crate) fn run(
     let system = system_of(study, "attractor")?;
     let start = start.map(|given| given.numbers(&system, "--start")).transpose()?;
     let units = system.units();
-    let read = |text: &str, option| Ok(quantity::duration_of_system(text, units, option)?);
+    let read = |text: &str, option| Ok(quantity::duration(text, units, option)?);
     let lyapunov = times.map(|times| exponent_times(times, read)).transpose()?;
     let request = AttractorRequest { start: start.unwrap_or_default(), lyapunov };
     Ok(NativeAnswer::new(verbs(study).attractor(&request)?))

@@ -25,7 +25,7 @@ fn window(
     quantity: Quantity,
     option: &'static str,
 ) -> Result<Option<(f64, f64)>, Failure> {
-    let read = |text: &str| quantity::of_system(text, Some(quantity), system.units(), option);
+    let read = |text: &str| quantity::number(text, Some(quantity), system.units(), option);
     pair.map(|(from, to)| Ok((read(from)?, read(to)?))).transpose()
 }
 

@@ -82,5 +82,5 @@ fn table(
             if number == "5.2" { ", $R$ = 2.7" } else { "" }
         )
     };
-    Ok(Product::table_of_disc(caption, &study).by(&[Task::Resonances]).table(table))
+    Ok(Product::disc_table(caption, &study).by(&[Task::Resonances]).table(table))
 }

@@ -29,7 +29,7 @@ impl Presented<DiscSetup> for Valid {
     }
 
     fn table(&self, study: &DiscStudy) -> String {
-        table_of_disc(study)
+        disc_table(study)
     }
 }
 
@@ -45,7 +45,7 @@ impl Presented<SystemSetup> for Valid {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        table_of_system(study)
+        system_table(study)
     }
 }
 
@@ -70,7 +70,7 @@ fn axes<K>(table: &mut TextTable, study: &StudyOf<K>) {
     }
 }
 
-fn table_of_system(study: &SystemStudy) -> String {
+fn system_table(study: &SystemStudy) -> String {
     let system = study.system();
     let mut table = TextTable::default();
     table.word("units", study.units().name());
@@ -171,7 +171,7 @@ fn frequency_of(units: UnitSystem, wave: &Wave) -> String {
     }
 }
 
-fn table_of_disc(study: &DiscStudy) -> String {
+fn disc_table(study: &DiscStudy) -> String {
     let object = disc::check::json(study);
     let mut table = TextTable::default();
     let word = |value: &Json| value.as_str().map_or_else(|| value.to_string(), str::to_owned);

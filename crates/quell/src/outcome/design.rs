@@ -61,7 +61,7 @@ impl Presented<DiscSetup> for LeastDitherFound {
     }
 
     fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::design_of_disc(study, self)))
+        Some(Ok(picture::disc_design(study, self)))
     }
 }
 

@@ -54,7 +54,7 @@ impl Presented<DiscSetup> for DiscStability {
     }
 
     fn table(&self, study: &DiscStudy) -> String {
-        table_of_disc(study, self)
+        disc_table(study, self)
     }
 
     fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
@@ -67,7 +67,7 @@ impl Presented<DiscSetup> for DiscStability {
 /// Most marginal frictions listed in the table.
 const MOST_CHANGES: usize = 6;
 
-fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
+fn disc_table(study: &DiscStudy, done: &DiscStability) -> String {
     let mut table = TextTable::default();
     table.word("verdict", done.growth.verdict().name());
     let hertz = study.reference_hz();

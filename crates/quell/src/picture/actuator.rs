@@ -3,7 +3,7 @@
 use quell_design::actuator::ActuatorAtFrequency;
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
     Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
@@ -24,12 +24,12 @@ struct ActuatorRulers {
 pub fn actuator(study: &SystemStudy, done: &ActuatorFound) -> Figure {
     let rulers = ActuatorRulers {
         frequency: frequency(study, "ω"),
-        force: Ruler::of_system(study, Quantity::Force, forces(done)),
-        velocity: Ruler::of_system(study, Quantity::Velocity, velocities(done)),
+        force: Ruler::new(study, Quantity::Force, forces(done)),
+        velocity: Ruler::new(study, Quantity::Velocity, velocities(done)),
     };
     figure(done, &rulers).title(study.title().unwrap_or_default()).caption(format!(
         "{} {}",
-        caption_of_system(study),
+        caption(study),
         done.sentence(study)
     ))
 }

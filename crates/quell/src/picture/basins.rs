@@ -50,7 +50,7 @@ fn axis(study: &SystemStudy, done: &Basins, number: usize) -> (PlotAxis, Ruler) 
     let Some(quantity) = study.system().state_quantity(done.places[number]) else {
         return (PlotAxis::new(name), Ruler::of_unit("", from.abs().max(to.abs())));
     };
-    let ruler = Ruler::of_system(study, quantity, [from, to]);
+    let ruler = Ruler::new(study, quantity, [from, to]);
     (ruler.axis(name, ""), ruler)
 }
 

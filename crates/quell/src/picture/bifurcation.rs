@@ -47,9 +47,9 @@ pub fn bifurcation(study: &SystemStudy, done: &Bifurcation) -> Figure {
         points.filter_map(|point| point.attractor())
     };
     let states = attractors().flat_map(|attractor| attractor.section.iter().copied());
-    let place = Ruler::of_system(study, Quantity::Displacement, states);
+    let place = Ruler::new(study, Quantity::Displacement, states);
     let extent = attractors().map(SystemAttractor::size);
-    let extent = Ruler::of_system(study, Quantity::Displacement, extent);
+    let extent = Ruler::new(study, Quantity::Displacement, extent);
     let unstable = || {
         let first = done.branches.first().map_or(&[][..], |branch| &branch.points);
         let mut values: Vec<(f64, bool)> = first
@@ -66,7 +66,7 @@ pub fn bifurcation(study: &SystemStudy, done: &Bifurcation) -> Figure {
         with_unstable(Panel::new(across(), extent.axis("peak-to-peak", "").from(0.0)), unstable());
     let each = (MOST_STATES / attractors().count().max(1)).max(STATES);
     let slow = attractors().filter_map(|attractor| attractor.slow);
-    let slow = Ruler::of_system(study, Quantity::FrequencyRatio, slow);
+    let slow = Ruler::new(study, Quantity::FrequencyRatio, slow);
     let up = slow.axis("slow frequency", "");
     let mut frequency = with_unstable(Panel::new(across(), up), unstable());
     // The small marks of the sweep up are drawn over the larger circles of the sweep down.

@@ -12,7 +12,7 @@ use crate::study::{DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy};
 use crate::words::plural;
 
 /// A disc study in one line.
-pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
+pub(super) fn disc_caption(study: &DiscStudy) -> String {
     let disc = study.disc();
     let mut parts = Vec::new();
     match study.source() {
@@ -91,10 +91,10 @@ pub(super) fn with_varied<K: StudyKind + Into<Kind>>(
 
 /// The caption of a system, in which "varied" stands for the numbers that are varied.
 pub(super) fn caption_of_varied(study: &SystemStudy, ranges: &[VariedNumber]) -> String {
-    ranges.iter().fold(caption_of_system(study), |text, (path, from, to)| {
+    ranges.iter().fold(caption(study), |text, (path, from, to)| {
         let at = |value: f64| {
             let parameter = study.model().parameter(path).ok()?;
-            Some(caption_of_system(&study.varied(&[(parameter, value)]).ok()?))
+            Some(caption(&study.varied(&[(parameter, value)]).ok()?))
         };
         match (at(*from), at(*to)) {
             (Some(first), Some(last)) => where_equal(&text, &first, &last),
@@ -125,7 +125,7 @@ fn where_equal(text: &str, one: &str, other: &str) -> String {
 }
 
 /// The caption of a study of a system.
-pub(super) fn caption_of_system(study: &SystemStudy) -> String {
+pub(super) fn caption(study: &SystemStudy) -> String {
     let size = study.system().structure.size();
     let coordinates = format!("{size} coordinate{}", plural(size));
     let mut parts = vec![match damping_ratios(study).as_deref() {
@@ -139,8 +139,8 @@ pub(super) fn caption_of_system(study: &SystemStudy) -> String {
 /// The caption of a study of any kind.
 pub(super) fn caption_of(study: &Study) -> String {
     match study.disc() {
-        Ok(disc) => caption_of_disc(&disc),
-        Err(_) => caption_of_system(&study.system()),
+        Ok(disc) => disc_caption(&disc),
+        Err(_) => caption(&study.system()),
     }
 }
 

@@ -3,7 +3,7 @@
 use quell_linear::averaging::DescribedCycle;
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
@@ -14,7 +14,7 @@ use crate::study::{SystemStudy, UnitSystem};
 /// The gain of every contact over the velocity amplitude, and below it the growth rate of slow motions with the limit cycles, where
 /// harmonic balance holds.
 pub(crate) fn describing(study: &SystemStudy, done: &DescribedContacts) -> Figure {
-    let ruler = Ruler::of_system(study, Quantity::Velocity, [done.largest]);
+    let ruler = Ruler::new(study, Quantity::Velocity, [done.largest]);
     let per_velocity = study.units().unit(Quantity::PerVelocity).unwrap_or_default();
     let vertical = PlotAxis::new("gain").symbol("N_1");
     let vertical = match study.units() {
@@ -54,7 +54,7 @@ pub(crate) fn describing(study: &SystemStudy, done: &DescribedContacts) -> Figur
     }
     Figure::grid(1, panels).title(study.title().unwrap_or_default()).caption(format!(
         "{} {}",
-        caption_of_system(study),
+        caption(study),
         done.sentence(study)
     ))
 }

@@ -1,6 +1,6 @@
 //! The least dither: the amplitudes that are quiet over the second number that is chosen, or over the box of operating points.
 
-use super::caption::{caption_of_disc, caption_of_system};
+use super::caption::{caption, disc_caption};
 use super::system::name_of as name_of_path;
 use quell_design::least_dither::{DesignObjective, DesignPoint, LimitedQuantity};
 
@@ -25,13 +25,13 @@ pub fn design(study: &SystemStudy, done: &LeastDitherFound) -> Figure {
     };
     figure(study, done, &axis).title(study.title().unwrap_or_default()).caption(format!(
         "{} {}",
-        caption_of_system(study),
+        caption(study),
         done.sentence(study)
     ))
 }
 
 /// The same of a disc, with the exact thresholds over the speeds.
-pub fn design_of_disc(study: &DiscStudy, done: &LeastDitherFound) -> Figure {
+pub fn disc_design(study: &DiscStudy, done: &LeastDitherFound) -> Figure {
     let axis = |path: &str| axis_of_key(path, study.is_si());
     let mut panels = Vec::new();
     if !done.others.is_empty() {
@@ -45,7 +45,7 @@ pub fn design_of_disc(study: &DiscStudy, done: &LeastDitherFound) -> Figure {
     Figure::grid(1, panels)
         .legend(SharedLegend::Below)
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}", caption_of_disc(study), done.sentence(study)))
+        .caption(format!("{} {}", disc_caption(study), done.sentence(study)))
 }
 
 /// The amplitudes at which the disc changes between quiet and loud, over the speeds, at the frequency of the answer.

@@ -5,7 +5,7 @@ use quell_disc::resonance::{Order, Waves};
 use quell_model::Disc;
 use quell_model::disc::DiscDither;
 
-use super::caption::caption_of_disc;
+use super::caption::disc_caption;
 use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
@@ -67,7 +67,7 @@ pub fn modes(study: &DiscStudy, done: &Modes) -> Result<Figure, Failure> {
         }
         _ => String::new(),
     };
-    let caption = format!("{}{more}", caption_of_disc(study));
+    let caption = format!("{}{more}", disc_caption(study));
     Ok(figure.title(study.title().unwrap_or_default()).caption(caption))
 }
 
@@ -143,7 +143,7 @@ fn signs(mode: &PlateMode, inner: f64) -> Vec<Note> {
 
 /// The picture of a disc that was computed as a system, with the caption of the disc.
 pub fn of_disc(figure: Figure, study: &DiscStudy) -> Figure {
-    figure.caption(caption_of_disc(study))
+    figure.caption(disc_caption(study))
 }
 
 /// Frequency and growth rate of every motion over speed, with the speed of the study marked.
@@ -184,7 +184,7 @@ pub fn stability(study: &DiscStudy, done: &DiscStability, campbell: &Campbell) -
         .legend(SharedLegend::Below)
         .size(Size::Frame(390.0, 300.0))
         .title(study.title().unwrap_or_default())
-        .caption(caption_of_disc(study))
+        .caption(disc_caption(study))
 }
 
 /// Tongues over speed and friction; meetings of pairs without a tongue at this order are thin lines, speeds of exact growth marks at the
@@ -221,7 +221,7 @@ pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
         .title(study.title().unwrap_or_default())
         .caption(format!(
             "{} Dotted: meetings of pairs of waves without a tongue at this order. Thick: speeds at which a motion grows exactly.",
-            caption_of_disc(study)
+            disc_caption(study)
         ))
 }
 

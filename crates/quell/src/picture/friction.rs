@@ -3,7 +3,7 @@
 use quell_model::units::Quantity;
 use quell_numerics::order::ascending_by;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
     Figure, Layer, LineStyle, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
@@ -19,14 +19,14 @@ pub(crate) fn figure(study: &SystemStudy, done: &ContactCurves) -> Figure {
     let dithered = study.system().is_dithered();
     let several = done.contacts.len() > 1;
     let panels = done.contacts.iter().map(|contact| {
-        let ruler = Ruler::of_system(study, Quantity::Velocity, contact.curve.slip_velocities());
+        let ruler = Ruler::new(study, Quantity::Velocity, contact.curve.slip_velocities());
         let label = format!("surface: {}", ruler.words(contact.velocity));
         let panel = panel(&contact.curve, &ruler, (contact.velocity, label), dithered);
         if several { panel.title(format!("contact {}", contact.name)) } else { panel }
     });
     Figure::grid(1, panels.collect::<Vec<_>>())
         .title(study.title().unwrap_or_default())
-        .caption(caption_of_system(study))
+        .caption(caption(study))
 }
 
 /// Friction of one contact over the slip velocity.

@@ -77,7 +77,7 @@ pub(super) fn around_response(
     let panel = |name: &str, quantity: Quantity, profiles: &[(String, Profile)]| {
         let largest =
             profiles.iter().flat_map(|(_, profile)| [profile.bounds().0, profile.bounds().1]);
-        let ruler = Ruler::of_system(study, quantity, largest);
+        let ruler = Ruler::new(study, quantity, largest);
         let lines = profiles.iter().enumerate().map(|(place, (label, profile))| {
             Polyline::new(PlotRole::Series(place), curve(profile, &ruler)).label(label.clone())
         });
@@ -125,8 +125,8 @@ pub(super) fn around_response(
     let highest = if fastest <= 40.0 * own { (1.25 * fastest).max(6.0 * own) } else { 8.0 * own };
     let spectrogram = Spectrogram::of(motion, period, highest).and_then(|found| {
         let frequency =
-            Ruler::of_system(study, Quantity::FrequencyRatio, found.frequencies.iter().copied());
-        let amplitude = Ruler::of_system(study, Quantity::Displacement, [found.largest()]);
+            Ruler::new(study, Quantity::FrequencyRatio, found.frequencies.iter().copied());
+        let amplitude = Ruler::new(study, Quantity::Displacement, [found.largest()]);
         heatmap(&found, axis.clone(), (time, &frequency, &amplitude))
     });
     (above.into_iter().flatten().collect(), spectrogram)

@@ -38,7 +38,7 @@ mod window;
 pub use actuator::actuator;
 pub use basins::basins;
 pub use compare::compare;
-pub use design::{design, design_of_disc};
+pub use design::{design, disc_design};
 pub use fit::fit;
 pub use fitted_record::{decay, record_fit};
 pub use map::{MOST_PANELS, MapAxis, MapKind, MappedQuantity, map, map_panel};

@@ -2,7 +2,7 @@
 
 use quell_numerics::order::ascending;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use crate::plot::{Figure, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine};
 use crate::run::noise_response::{NoiseResponse, QUIET};
 use crate::study::SystemStudy;
@@ -23,5 +23,5 @@ pub(crate) fn figure(study: &SystemStudy, done: &NoiseResponse) -> Figure {
     let panel = Panel::new(PlotAxis::new("residual vibration").symbol("E"), vertical)
         .with(Polyline::new(PlotRole::Exact, points))
         .with(ReferenceLine::vertical(QUIET).label("quiet"));
-    Figure::single(panel).caption(caption_of_system(study)).title(study.title().unwrap_or_default())
+    Figure::single(panel).caption(caption(study)).title(study.title().unwrap_or_default())
 }

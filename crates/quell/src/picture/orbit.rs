@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use quell_dynamics::motion::ContactPhase;
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::Ruler;
 use crate::complaint::Failure;
 use crate::plot::{Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, Size};
@@ -28,14 +28,14 @@ pub fn orbit(study: &SystemStudy, done: &PeriodicResponse) -> Result<Figure, Fai
     Ok(Figure::grid(2, [plane(study, found), multipliers(found)])
         .size(Size::Frame(280.0, 260.0))
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}", sentence(study, found), caption_of_system(study))))
+        .caption(format!("{} {}", sentence(study, found), caption(study))))
 }
 
 /// The plane of the observed displacement and its rate, with stick and separation.
 fn plane(study: &SystemStudy, found: &FoundMotion) -> Panel {
     let samples = &found.samples;
-    let x = Ruler::of_system(study, Quantity::Displacement, samples.observed.iter().copied());
-    let v = Ruler::of_system(study, Quantity::Velocity, samples.rate.iter().copied());
+    let x = Ruler::new(study, Quantity::Displacement, samples.observed.iter().copied());
+    let v = Ruler::new(study, Quantity::Velocity, samples.rate.iter().copied());
     let states = samples.observed.iter().zip(&samples.rate);
     let points: Vec<(f64, f64)> = states.map(|(a, b)| (x.place(*a), v.place(*b))).collect();
     let across = x.axis("observed displacement", "");

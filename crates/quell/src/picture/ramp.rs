@@ -2,7 +2,7 @@
 
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
     Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
@@ -12,7 +12,7 @@ use crate::study::SystemStudy;
 
 /// Displacement, and vibration within one natural period, over the value of the ramp; rising and falling values apart.
 pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
-    let ruler = |quantity, values: Vec<f64>| Ruler::of_system(study, quantity, values);
+    let ruler = |quantity, values: Vec<f64>| Ruler::new(study, quantity, values);
     let (least, largest) = done.ramped.range();
     let across = ruler(done.ramped.quantity, vec![least, largest]);
     let place = ruler(Quantity::Displacement, done.motion.displacement.clone());
@@ -55,7 +55,7 @@ pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
         .legend(SharedLegend::Above)
         .size(Size::Frame(560.0, 190.0))
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}", caption_of_system(study), done.sentence(study)))
+        .caption(format!("{} {}", caption(study), done.sentence(study)))
 }
 
 /// Adds values over time as one curve for each interval in which the ramp rises or falls; `to_points` places them.

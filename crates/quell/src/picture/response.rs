@@ -3,7 +3,7 @@
 use quell_dynamics::response::SettledRecord;
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::{Ruler, time_between};
 use super::system::frequency_axis;
 use crate::plot::{Figure, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend};
@@ -29,7 +29,7 @@ pub fn response(study: &SystemStudy, done: &MeasuredResponse) -> Figure {
     )
     .legend(if dithered { SharedLegend::Above } else { SharedLegend::default() })
     .title(study.title().unwrap_or_default())
-    .caption(format!("{} {}.", caption_of_system(study), capital(&start)))
+    .caption(format!("{} {}.", caption(study), capital(&start)))
 }
 
 /// The records with and without dither, or one of them.
@@ -53,7 +53,7 @@ fn record(study: &SystemStudy, done: &MeasuredResponse, dithered: bool) -> Panel
     let first = (end - shown.min(done.plan.length)).max(done.plan.settle);
     let (time, clock) = time_between(study, (first, end));
     let values = [with, without].map(|record| record.samples.iter().copied());
-    let x = Ruler::of_system(study, Quantity::Displacement, values.into_iter().flatten());
+    let x = Ruler::new(study, Quantity::Displacement, values.into_iter().flatten());
     let points = |record: &SettledRecord| -> Vec<(f64, f64)> {
         let samples = record.samples.iter().enumerate();
         let times = samples
@@ -76,7 +76,7 @@ fn spectra(
         |record: &SettledRecord| record.spectrum.amplitudes().iter().copied().fold(0.0, f64::max);
     let top = largest(records[0]).max(largest(records[1]));
     let floor = top * 10f64.powi(-DECADES);
-    let size = Ruler::of_system(study, Quantity::Displacement, [top]);
+    let size = Ruler::new(study, Quantity::Displacement, [top]);
     let end = 1.3 * fastest_line(records, floor);
     let points = records.map(|record| -> Vec<(f64, f64)> {
         let lines = record.spectrum.frequencies().zip(record.spectrum.amplitudes());

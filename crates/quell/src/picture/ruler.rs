@@ -22,7 +22,7 @@ pub(super) struct Ruler {
 
 impl Ruler {
     /// A ruler for values up to `largest` in magnitude (dimensionless).
-    pub(super) fn new(study: &BeltStudy, quantity: Quantity, largest: f64) -> Self {
+    pub(super) fn scaled(study: &BeltStudy, quantity: Quantity, largest: f64) -> Self {
         let Some((si, unit)) = study.scales().and_then(|scales| scales.one(quantity)) else {
             return Self { factor: 1.0, unit: String::new() };
         };
@@ -43,7 +43,7 @@ impl Ruler {
     }
 
     /// A ruler for these values of a quantity of a system, in the units of its study.
-    pub(super) fn of_system(
+    pub(super) fn new(
         study: &SystemStudy,
         quantity: Quantity,
         values: impl IntoIterator<Item = f64>,
@@ -99,12 +99,12 @@ pub(super) fn short(value: f64) -> String {
 
 /// A value of a study with its unit, for captions and labels.
 pub(super) fn words(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
-    Ruler::new(study, quantity, value).words(value)
+    Ruler::scaled(study, quantity, value).words(value)
 }
 
 /// The axis of time between two times, and its ruler.
 pub(super) fn time_between(study: &SystemStudy, (from, to): (f64, f64)) -> (PlotAxis, Ruler) {
-    let ruler = Ruler::of_system(study, Quantity::Time, [from, to]);
+    let ruler = Ruler::new(study, Quantity::Time, [from, to]);
     let axis = ruler.axis("time", "t").between(ruler.place(from), ruler.place(to));
     (axis, ruler)
 }

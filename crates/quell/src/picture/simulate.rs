@@ -3,7 +3,7 @@
 use quell_dynamics::motion::{ContactPhase, MotionSampler};
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::manoeuvre::around_response;
 use super::ruler::{Ruler, time_between};
 use crate::plot::{
@@ -46,7 +46,7 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
     let without = without.map(|samples| Observed::of(study, samples));
     let both = || [Some(&with), without.as_ref()].into_iter().flatten();
     let places = both().flat_map(|motion| motion.displacement.iter().copied());
-    let x = Ruler::of_system(study, Quantity::Displacement, places);
+    let x = Ruler::new(study, Quantity::Displacement, places);
     let (time, clock) = time_between(study, (done.start.time, done.end.time));
     let across = x.axis("observed displacement", "");
     let over_time = |motion: &Observed| -> Vec<(f64, f64)> {
@@ -70,14 +70,14 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
         return Figure::grid(1, panels)
             .sharing_x(Sharing::All)
             .title(study.title().unwrap_or_default())
-            .caption(format!("{} {found}", caption(study, &start)));
+            .caption(format!("{} {found}", whole_caption(study, &start)));
     }
     let mut panels = vec![panel];
     let rates = || both().filter_map(|motion| motion.velocity.as_deref());
     if with.velocity.is_some() {
         let surface = surface(study);
         let shown = rates().flatten().copied().chain(surface);
-        let v = Ruler::of_system(study, Quantity::Velocity, shown);
+        let v = Ruler::new(study, Quantity::Velocity, shown);
         let plane = |motion: &Observed| -> Vec<(f64, f64)> {
             let rates = motion.velocity.iter().flatten().map(|rate| v.place(*rate));
             motion.displacement.iter().map(|value| x.place(*value)).zip(rates).collect()
@@ -91,7 +91,7 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
     }
     let figure = Figure::grid(1, panels)
         .title(study.title().unwrap_or_default())
-        .caption(caption(study, &start));
+        .caption(whole_caption(study, &start));
     if without.is_some() { figure.legend(SharedLegend::Above) } else { figure }
 }
 
@@ -140,7 +140,7 @@ fn bars(history: &EventHistory, clock: &Ruler, (least, most): (f64, f64)) -> Vec
 }
 
 /// The caption of a run from a start.
-fn caption(study: &SystemStudy, start: &str) -> String {
+fn whole_caption(study: &SystemStudy, start: &str) -> String {
     let contacts = &study.system().contacts;
     let names: Vec<String> =
         contacts.iter().take(MOST_BARS).map(|contact| contact.name.clone()).collect();
@@ -149,5 +149,5 @@ fn caption(study: &SystemStudy, start: &str) -> String {
         1 => format!(" Bars: contact {}.", names[0]),
         _ => format!(" Bars from top to bottom: contacts {}.", names.join(", ")),
     };
-    format!("{} {}.{bars}", caption_of_system(study), capital(start))
+    format!("{} {}.{bars}", caption(study), capital(start))
 }

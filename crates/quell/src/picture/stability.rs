@@ -4,7 +4,7 @@ use quell_linear::averaging::{Averaging, criterion};
 use quell_model::units::Quantity;
 use quell_model::{Belt, Direction};
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::Ruler;
 use super::system::{frequency_axis, growth_axis};
 use crate::plot::{
@@ -35,7 +35,7 @@ fn of_one_mass(study: &SystemStudy, one: &OneMassStability, dither: &UnderDither
         .collect();
     let own = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
     let end = last_amplitude(belt, critical.iter().copied().fold(own, f64::max));
-    let force = Ruler::of_system(study, Quantity::Force, [one.amplitude() * end]);
+    let force = Ruler::new(study, Quantity::Force, [one.amplitude() * end]);
     let place = |amplitude: f64| force.place(one.amplitude() * amplitude);
     let value = |amplitude: f64| {
         let changed = belt.with_amplitude(0, amplitude).ok()?;
@@ -61,7 +61,7 @@ fn of_one_mass(study: &SystemStudy, one: &OneMassStability, dither: &UnderDither
     }
     Figure::single(panel)
         .title(study.title().unwrap_or_default())
-        .caption(format!("{}; by finite-R averaging.", caption_of_system(study)))
+        .caption(format!("{}; by finite-R averaging.", caption(study)))
 }
 
 /// Every eigenvalue in the complex plane; under dither those without it too.

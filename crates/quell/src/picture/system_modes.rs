@@ -1,6 +1,6 @@
 //! Shapes of the natural motions of a system: the displacement of every coordinate, as stems.
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::short;
 use crate::plot::{
     Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Sharing,
@@ -55,11 +55,11 @@ pub fn modes(study: &SystemStudy, done: &SystemModes) -> Figure {
         .sharing_x(Sharing::All)
         .sharing_y(Sharing::All)
         .title(study.title().unwrap_or_default())
-        .caption(caption(study, done))
+        .caption(whole_caption(study, done))
 }
 
 /// The coordinates in their order, and how many shapes are left out.
-fn caption(study: &SystemStudy, done: &SystemModes) -> String {
+fn whole_caption(study: &SystemStudy, done: &SystemModes) -> String {
     let names = study.system().structure.names();
     let listed = names.iter().take(MOST_NAMES).cloned().collect::<Vec<_>>().join(", ");
     let more = if names.len() > MOST_NAMES { ", …" } else { "" };
@@ -71,6 +71,6 @@ fn caption(study: &SystemStudy, done: &SystemModes) -> String {
     };
     format!(
         "Natural motions without friction, with the springs of the contacts. Coordinates: {listed}{more}.{shown} {}",
-        caption_of_system(study)
+        caption(study)
     )
 }

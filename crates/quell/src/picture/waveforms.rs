@@ -2,7 +2,7 @@
 
 use quell_numerics::order::ascending_by;
 
-use super::caption::caption_of_system;
+use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend};
 use crate::run::waveforms::{COLUMNS, CostColumn, RankedBy, WaveformComparison};
@@ -32,12 +32,11 @@ struct CostPanel<'a> {
 
 /// One panel for amplitude, rms force, power and stroke.
 pub fn waveforms(study: &SystemStudy, done: &WaveformComparison) -> Figure {
-    let ruler = |column: &CostColumn, marks: &[CostMark]| {
-        Ruler::of_system(study, column.quantity, shown(marks))
-    };
+    let ruler =
+        |column: &CostColumn, marks: &[CostMark]| Ruler::new(study, column.quantity, shown(marks));
     figure(done, ruler, study.system().one_mass().is_some())
         .title(study.title().unwrap_or_default())
-        .caption(format!("{}; {}", caption_of_system(study), shown_in_words(done)))
+        .caption(format!("{}; {}", caption(study), shown_in_words(done)))
 }
 
 /// The panels; `is_mass` of a mass, whose response to bursts depends on the duty cycle alone.

@@ -97,7 +97,7 @@ impl SoundOptions {
     /// # Errors
     /// A complaint about `--gain`.
     pub fn gain(text: &str, units: UnitSystem) -> Result<f64, Box<Complaint>> {
-        let found = quantity::of_system(text, Some(Quantity::PerVelocity), units, "--gain")?;
+        let found = quantity::number(text, Some(Quantity::PerVelocity), units, "--gain")?;
         let allowed = "a fraction of full scale per unit of velocity above 0, such as 2.5";
         positive("--gain", text, Some(found), allowed)
     }

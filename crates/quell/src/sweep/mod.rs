@@ -27,7 +27,7 @@ pub use grid::{Grid, GridAxis, MOST_POINTS};
 pub use map_quantity::{MapQuantity, Variable, VariableKind};
 pub use plan::Plan;
 pub use quantity::QUANTITIES;
-pub(crate) use quantity::{SlidingGrowth, growth_of_disc, least_quiet};
+pub(crate) use quantity::{SlidingGrowth, growth_of, least_quiet};
 pub(crate) use runner::run;
 pub use runner::{MOST_THREADS, Progress, Running};
 pub use shard::Shard;

@@ -107,7 +107,7 @@ pub fn read_plane(study: &SystemStudy, text: &str) -> Result<[PlaneAxis; 2], Com
         let name = name.trim().to_owned();
         let place = names.iter().position(|known| *known == name);
         let quantity = place.and_then(|place| study.system().state_quantity(place));
-        let read = |text: &str| quantity::of_system(text, quantity, study.units(), option);
+        let read = |text: &str| quantity::number(text, quantity, study.units(), option);
         let Some((from, to)) = window.split_once(':') else {
             let allowed = "NAME=FROM:TO, such as x=-1:1";
             return Err(Box::new(Complaint::option(option, part, allowed)));

@@ -96,11 +96,10 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
         Some(until) => until,
         None => begin + usual_duration(&system, &kick)?,
     };
-    let request_of_system =
-        MotionRequest { until: Some(until), undithered: false, ..request.clone() };
+    let asked = MotionRequest { until: Some(until), undithered: false, ..request.clone() };
     let from = until - TAIL * (until - begin);
     let mut watch = RowWatch::new(study.observed_row(), kick.middle, kick.levels.clone(), from);
-    let done = run_observed(&system, &request_of_system, &mut watch);
+    let done = run_observed(&system, &asked, &mut watch);
     let ran_away = watch.largest() > RUNAWAY * kick.amplitude.max(f64::MIN_POSITIVE);
     let motion = done.map_err(|failure| match failure {
         failure if ran_away => unbounded(&failure),

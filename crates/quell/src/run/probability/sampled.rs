@@ -18,7 +18,7 @@ use crate::run::stability::FAST;
 use crate::run::system::attractor::local_verdict;
 use crate::run::system::{has_equations, in_units};
 use crate::study::{DiscStudy, ParameterId, SystemStudy, UnitSystem};
-use crate::sweep::{SlidingGrowth, Status, growth_of_disc, least_quiet};
+use crate::sweep::{SlidingGrowth, Status, growth_of, least_quiet};
 use crate::words::digits;
 
 /// A growth rate with its verdict.
@@ -248,7 +248,7 @@ impl SampledKind for DiscStudy {
         // A sample has an ω_ref of its own.
         let scales = disc.scales(0).filter(|_| DiscUnits::of(self).is_some());
         let one = scales.map_or(1.0, |scales| scales.angular_frequency());
-        let growth = growth_of_disc(disc, self.parts()).map(JudgedGrowth::of);
+        let growth = growth_of(disc, self.parts()).map(JudgedGrowth::of);
         let growth = growth.map(|growth| JudgedGrowth { rate: one * growth.rate, ..growth });
         AveragedGrowth::of(growth.map_err(|status| status.about().to_owned()))
     }

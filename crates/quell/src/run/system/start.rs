@@ -150,7 +150,7 @@ pub fn named<'a>(
                 return Err(Box::new(Complaint::option("--start", text, allowed)));
             }
             let quantity = system.state_quantity(place);
-            Ok((place, quantity::of_system(text, quantity, study.units(), "--start")?))
+            Ok((place, quantity::number(text, quantity, study.units(), "--start")?))
         });
         match number {
             Ok(number) => numbers.push(number),
@@ -171,10 +171,10 @@ pub fn duration(
 ) -> Result<f64, Box<Complaint>> {
     match study.scaled_time() {
         Some(time) if time.plain_in_seconds || measure::has_unit(text) => {
-            let seconds = quantity::duration_of_system(text, UnitSystem::Si, option)?;
+            let seconds = quantity::duration(text, UnitSystem::Si, option)?;
             Ok(time.per_second * seconds)
         }
-        _ => quantity::duration_of_system(text, study.units(), option),
+        _ => quantity::duration(text, study.units(), option),
     }
 }
 

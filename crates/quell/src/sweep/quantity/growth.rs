@@ -219,7 +219,7 @@ enum DiscEquations {
 }
 
 /// Largest growth rate of one disc.
-pub(crate) fn growth_of_disc(disc: &Disc, parts: Contributions) -> Result<Growth, Status> {
+pub(crate) fn growth_of(disc: &Disc, parts: Contributions) -> Result<Growth, Status> {
     disc_growth(disc, parts, &mut None)
 }
 

@@ -21,7 +21,7 @@ use crate::nearest;
 use crate::run::system::measured_alone;
 use crate::study::Study;
 
-pub(crate) use growth::{SlidingGrowth, growth_of_disc};
+pub(crate) use growth::{SlidingGrowth, growth_of};
 pub(crate) use quench::least_quiet;
 pub(super) use response::SETTLED;
 
