@@ -18,6 +18,18 @@ pub const LARGEST: u64 = 16;
 /// Maximum number of characters of a cell that are shown.
 const SHOWN: usize = 24;
 
+/// How files of other programs begin, and how one of them becomes text.
+const FORMATS: &[(&[u8], &str)] = &[
+    (b"PK\x03\x04", "this file is a workbook or an archive: save its sheet as CSV"),
+    (
+        b"\x93NUMPY",
+        "this file is a NumPy array: np.savetxt(\"data.csv\", array, delimiter=\",\", header=\"…\", comments=\"\") writes it as CSV",
+    ),
+];
+
+/// What may stand between columns elsewhere.
+const SEPARATORS: &[(char, &str)] = &[(';', "semicolons"), ('\t', "tabs")];
+
 /// Reads a file as text; `what` is what it must be, such as "a CSV file of samples".
 ///
 /// # Errors
@@ -33,6 +45,10 @@ pub fn text(path: &Path, what: &str) -> Result<String, String> {
 pub fn text_up_to(path: &Path, what: &str, most: u64) -> Result<String, String> {
     let bytes = read_regular(path, most << 20)
         .map_err(|error| format!("{what} of at most {most} MiB; it cannot be read: {error}"))?;
+    let known = FORMATS.iter().find(|(begin, _)| bytes.starts_with(begin));
+    if let Some((_, how)) = known {
+        return Err(format!("{what}; {how}"));
+    }
     String::from_utf8(bytes).map_err(|_| format!("{what}; this file is not text"))
 }
 
@@ -127,6 +143,12 @@ impl<'t> DataFile<'t> {
             lines.next().ok_or_else(|| format!("{what} with a header line of column names"))?;
         let names: Vec<&str> =
             header.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        let other = SEPARATORS.iter().find(|(mark, _)| names.len() == 1 && header.contains(*mark));
+        if let Some((_, separators)) = other {
+            return Err(format!(
+                "{what} with commas between its columns; this file has {separators}, and its numbers need a decimal point"
+            ));
+        }
         distinct(&names)?;
         let columns = names.len();
         let rows = lines
@@ -197,5 +219,34 @@ impl Row<'_> {
             .get(at)
             .and_then(|cell| cell.parse::<f64>().ok())
             .is_some_and(|number| number < 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_other_programs_are_named() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("data");
+        let why = |bytes: &[u8]| {
+            std::fs::write(&path, bytes).expect("written");
+            let text = text(&path, "a CSV file of numbers")?;
+            DataFile::new(&text, "a CSV file of numbers").map(|_| ())
+        };
+        for (bytes, wanted) in [
+            (&b"velocity;coefficient\n0,1;0,4\n"[..], "this file has semicolons"),
+            (b"velocity\tcoefficient\n0.1\t0.4\n", "this file has tabs"),
+            (b"PK\x03\x04\x14\x00", "save its sheet as CSV"),
+            (b"\x93NUMPY\x01\x00", "np.savetxt"),
+            (b"\xff\xfe\x00", "is not text"),
+        ] {
+            let why = why(bytes).expect_err(wanted);
+            assert!(why.starts_with("a CSV file of numbers") && why.contains(wanted), "{why}");
+        }
+        assert_eq!(why(b"velocity,coefficient\n0.1,0.4\n"), Ok(()));
+        // One column is a file too.
+        assert_eq!(why(b"velocity\n0.1\n"), Ok(()));
     }
 }

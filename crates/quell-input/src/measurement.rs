@@ -205,6 +205,8 @@ impl Columns {
             Some(column) => number(column, "a finite number above 0", positive),
         };
         if !wrong.is_empty() {
+            // A line with too many cells is wrong once, not once a column.
+            wrong.dedup();
             return Err(wrong);
         }
         if !coefficient.is_finite() {
