@@ -38,12 +38,14 @@ def test_objects_and_files_make_the_same_study() -> None:
     assert isinstance(read, quell.Belt)
     assert read == made and hash(read) == hash(made)
     assert quell.Study.from_text(made.text) == made
-    assert made != made.set({"dither.amplitude": 0.5})
+    assert quell.Study.from_toml(text) == quell.load(text) == made
+    louder = made.set({"dither.amplitude": 0.5})
+    assert made != louder and quell.load(text, {"dither.amplitude": 0.5}) == louder
 
 
 @pytest.mark.parametrize("path", sorted(STUDIES.glob("*.toml")), ids=lambda path: path.stem)
 def test_every_study_of_the_project_is_read(path: Any) -> None:
-    study = quell.Study.from_toml(path)
+    study = quell.load(path)
     assert isinstance(study, (quell.Belt, quell.Disc, quell.System))
     assert pickle.loads(pickle.dumps(study)) == study
     assert study.check().facts["ok"] is True

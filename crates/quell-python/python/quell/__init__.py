@@ -91,6 +91,7 @@ __all__ = [
     "from_abaqus",
     "from_nastran",
     "from_universal_file",
+    "load",
     "new",
     "quantities",
     "fit",
@@ -111,6 +112,12 @@ if not TYPE_CHECKING:
 
             return import_module(".explore", __name__)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+@keywords
+def load(path: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
+    """The study of a file, or of its text, with changes: :meth:`Study.from_toml`."""
+    return Study.from_toml(path, set)
 
 
 def schema() -> dict[str, Any]:

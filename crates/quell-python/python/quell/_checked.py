@@ -65,7 +65,7 @@ class CheckedStudy(Frozen):
     @classmethod
     @keywords
     def from_toml(cls, path: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
-        """Reads and checks a study file; ``set`` first changes values, like ``--set path=value``.
+        """Reads and checks a study file; ``set`` first changes values, like ``--set path=value``. Text of several lines is the study itself.
 
         Raises
         ------
@@ -76,6 +76,8 @@ class CheckedStudy(Frozen):
         """
         from ._study import Study
 
+        if isinstance(path, str) and "\n" in path:
+            return cls.from_text(path, set)
         arguments = Arguments()
         place = arguments.path("path", path)
         changes = changes_of(set, arguments)
