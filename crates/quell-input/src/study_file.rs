@@ -27,6 +27,11 @@ pub fn text(path: &Path) -> Result<String, Box<Complaint>> {
         let given = Json::String(path.display().to_string());
         Box::new(Complaint::new(Fault::Path, "study file", Origin::Whole, given, allowed))
     };
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv")) {
+        let allowed =
+            "is a data file; expected a study (TOML). `fit` and `compare` take measurements";
+        return Err(complaint(allowed.into()));
+    }
     let mut bytes = Vec::new();
     let read = if path == Path::new("-") {
         io::stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes)

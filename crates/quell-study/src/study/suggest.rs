@@ -20,10 +20,15 @@ pub fn key(kind: DocumentKind, table: Section, name: &str) -> Option<&'static Ke
         .filter(|key| key.section != Section::Sweep || table == Section::Sweep)
         .map(|key| (score(key), key))
         .filter(|(score, _)| *score >= NEAR)
-        // Among equal scores the first is taken: keys are in the order of the file, dimensionless before SI.
+        // Among equal scores the outermost is taken, and the first of them: keys are in the order of the file, dimensionless before SI.
         .rev()
-        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .max_by(|a, b| a.0.total_cmp(&b.0).then_with(|| depth(b.1).cmp(&depth(a.1))))
         .map(|(_, key)| key)
+}
+
+/// How many tables a key is within.
+fn depth(key: &Key) -> usize {
+    key.section.path().split('.').count()
 }
 
 /// Whether a key was named by its symbol, as `zeta` for ζ or `mu_s` for μ_s.
@@ -80,6 +85,7 @@ mod tests {
             ("dither", "amplitud", "dither.amplitude"),
             ("dither", "D_T", "dither.amplitude"),
             ("", "titel", "title"),
+            ("", "amplitude", "dither.amplitude"),
             ("solver", "tolerence", "solver.tolerance"),
         ] {
             let table = Section::ALL.iter().find(|section| section.path() == table).copied();

@@ -48,14 +48,16 @@ fn of_disc(study: &DiscStudy) -> Vec<Unexamined> {
             "Large motions",
             "All verdicts are about small motions. How large an unstable motion becomes was not computed.",
         ),
-        Unexamined::new(
+    ];
+    if study.design().is_none() {
+        all.push(Unexamined::new(
             "Other speeds",
             format!(
                 "The verdicts of `stability` hold at Ω = {} only; `quell map` computes maps over speed and friction.",
                 digits(disc.speed())
             ),
-        ),
-    ];
+        ));
+    }
     let without = study.without();
     if !without.is_empty() {
         all.push(Unexamined::new(
@@ -125,7 +127,9 @@ fn of_system(study: &SystemStudy, answers: &[ReportedAnswer]) -> Vec<Unexamined>
             ),
         ));
     }
-    for wave in system.waves() {
+    let designed = study.design().map_or(&[][..], |design| &design.vary);
+    let varies = |what: &str| designed.iter().any(|range| range.path.contains(what));
+    for wave in system.waves().filter(|_| !varies("frequency")) {
         all.push(Unexamined::new(
             "Other dither frequencies",
             format!(
@@ -167,7 +171,10 @@ fn parameters(study: &Study) -> Unexamined {
         .settings()
         .into_iter()
         .filter(|(path, value)| {
-            path != "schema" && !path.starts_with("sweep") && value.parse::<f64>().is_ok()
+            let asked = ["schema", "sweep", "design"].iter().any(|table| path.starts_with(table));
+            let sampled =
+                study.uncertainty().is_some_and(|known| known.paths().any(|known| known == path));
+            !asked && !sampled && value.parse::<f64>().is_ok()
         })
         .map(|(path, _)| format!("`{path}`"))
         .collect();

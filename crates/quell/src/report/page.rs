@@ -31,6 +31,8 @@ const COSTS: &[&str] = &[
 ];
 /// Fields that state a verdict, and its error: the first that an answer has.
 const VERDICTS: &[&str] = &["/verdict", "/effect", "/local/0/kind"];
+/// The same where no dither acts, which has no effect.
+const UNDITHERED_VERDICTS: &[&str] = &["/verdict", "/ends_on"];
 const ERRORS: &[&str] = &[
     "/growth_rate_error",
     "/multiplier_error",
@@ -79,7 +81,8 @@ fn answer(page: &mut HtmlPage, report: &StudyReport) {
     page.section("answer", "The answer");
     let wanted: &[&str] = match report.study.disc() {
         Err(_) if is_dithered(&report.study) => &["response", "thresholds"],
-        _ => &["stability"],
+        Err(_) => &["stability", "response"],
+        Ok(_) => &["stability"],
     };
     let of = |verbs: &[&str]| -> Vec<String> {
         let said = report.answers.iter().filter(|answer| verbs.contains(&answer.verb));
@@ -135,7 +138,8 @@ fn verdicts(page: &mut HtmlPage, report: &StudyReport) {
             })
         };
         let shown = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
-        let verdict = first(VERDICTS, &|value| digits(value, 6));
+        let wanted = if is_dithered(&report.study) { VERDICTS } else { UNDITHERED_VERDICTS };
+        let verdict = first(wanted, &|value| digits(value, 6));
         let error = first(ERRORS, &|error| format!("{error:.0e}"));
         // An answer without a verdict has its place among the answers alone.
         (verdict.is_some() || error.is_some()).then(|| {

@@ -2,24 +2,20 @@
 
 use std::sync::atomic::AtomicBool;
 
-use quell_model::System;
 use quell_model::parameter::indexed;
-use quell_model::system::{Input, InputTarget};
+use quell_model::system::Input;
 
 use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
 use crate::run::response::ResponseRequest;
 use crate::run::system::start::{StateNumbers, start_in_words};
-use crate::run::thresholds::ThresholdsRequest;
+use crate::run::thresholds::{ThresholdsRequest, window_of};
 use crate::run::varied::key_of;
 use crate::study::{Study, SystemStudy};
 use crate::sweep::Running;
 use crate::verbs::{Reply, Verbs};
 use crate::words::digits;
-
-/// The window of thresholds, in amplitudes of the study.
-const WINDOW: (f64, f64) = (0.1, 2.0);
 
 /// A verb of the report.
 pub(super) struct ReportStep {
@@ -98,11 +94,9 @@ fn of_system(declared: &Study, study: &SystemStudy) -> Vec<ReportStep> {
         }),
     ];
     let inputs = &study.system().inputs;
-    for (place, input) in inputs.iter().enumerate() {
+    for (place, input) in inputs.iter().enumerate().filter(|(_, input)| amplitude_of(input) > 0.0) {
         let path = indexed("dither", place, inputs.len(), "amplitude");
-        let amplitude = amplitude_of(input);
-        let room = room_for(study.system(), input);
-        steps.extend(thresholds(&key_of(declared, &path), amplitude, room));
+        steps.push(thresholds(study, &key_of(declared, &path), input));
     }
     if !inputs.is_empty() {
         steps.extend(study.design().map(|_| design(BRANCH)));
@@ -128,34 +122,15 @@ pub(super) fn amplitude_of(input: &Input) -> f64 {
     input.profile.waves().iter().map(|wave| wave.amplitude).fold(0.0, f64::max)
 }
 
-/// The largest amplitude at which an input leaves the contact closed on whose prescribed load it acts.
-fn room_for(system: &System, input: &Input) -> f64 {
-    let InputTarget::NormalLoad { contact, .. } = input.target else { return f64::INFINITY };
-    let same = |other: &&Input| matches!(other.target, InputTarget::NormalLoad { contact: its, .. } if its == contact);
-    let all: f64 = system.inputs.iter().filter(same).map(amplitude_of).sum();
-    let loaded = &system.contacts[contact];
-    if loaded.normal.is_some() {
-        f64::INFINITY
-    } else {
-        loaded.normal_load - all + amplitude_of(input)
-    }
-}
-
-/// Thresholds of an amplitude between a tenth and twice its value, or up to the largest that the contact allows; none of an
-/// amplitude that is 0.
-fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<ReportStep> {
-    // Numbers with few digits; rounding must not lead beyond the largest amplitude.
-    let rounded = |value: f64| digits(value).parse::<f64>().unwrap_or(value);
-    let (from, to) = (rounded(WINDOW.0 * amplitude), rounded(WINDOW.1 * amplitude).min(room));
-    if !(amplitude > 0.0 && from < to) {
-        return None;
-    }
-    let parameter = path.to_owned();
-    let request =
-        ThresholdsRequest { parameter, window: (from, to), ..ThresholdsRequest::default() };
+/// Thresholds of an amplitude from no dither up to the limit of the verb, of one without such a limit up to twice its value.
+fn thresholds(study: &SystemStudy, path: &str, input: &Input) -> ReportStep {
+    let window = window_of(study, path, (None, None), None);
+    let window = window.unwrap_or_else(|_| (0.0, 2.0 * amplitude_of(input)));
+    let (parameter, (from, to)) = (path.to_owned(), window);
+    let request = ThresholdsRequest { parameter, window, ..ThresholdsRequest::default() };
     let heading = "Amplitudes that change the outcome";
     let ask = move |verbs: &Verbs| verbs.thresholds(&request);
     let mut step = ReportStep::new("thresholds", heading, BRANCH, ask);
     step.chosen = Some(format!("`{path}` from {} to {}", digits(from), digits(to)));
-    Some(step)
+    step
 }

@@ -6,7 +6,7 @@ use quell_model::system::{Contact, Input, InputTarget, Structure};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::actuator::{beyond_actuator, designed};
+use super::actuator::beyond_actuator;
 use super::law;
 use super::system::velocity_in_words;
 use crate::fields::Fields;
@@ -162,7 +162,7 @@ fn warnings(study: &SystemStudy) -> Vec<String> {
         let in_words = |speed| velocity_in_words(study, speed);
         warnings.extend(outside_of_laws(system, in_words, contacts));
     }
-    warnings.extend(beyond_actuator(system, study.actuator(), designed(study)));
+    warnings.extend(beyond_actuator(study));
     warnings.extend(noise::few_lines(system));
     warnings.extend(removed_mean::warnings(system.waves().map(|wave| &wave.waveform)));
     warnings

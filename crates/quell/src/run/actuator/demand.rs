@@ -1,9 +1,6 @@
 //! What a dither demands of an actuator, as fields and as warnings: for `actuator` and `design`.
 
 use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
-use quell_linear::driven_point::DrivenPoint;
-use quell_linear::linearised::Linearised;
-use quell_model::System;
 use quell_model::units::Quantity;
 
 use crate::fields::Fields;
@@ -38,27 +35,6 @@ pub(crate) fn warnings_about_actuator(actuator: &Actuator, demand: &ActuatorDema
         "[actuator] has neither free_stroke nor stiffness: the spring of the stack must be part of the structure".to_owned()
     });
     changed.into_iter().chain(free).collect()
-}
-
-/// The warning about a dither that demands more than an actuator can give, in the units of its equations: the dither that `actuator`
-/// judges. `None` where the demand is unknown.
-pub(crate) fn beyond_actuator(
-    system: &System,
-    actuator: Option<&Actuator>,
-    input: usize,
-) -> Option<String> {
-    let (actuator, input) = (actuator?, system.inputs.get(input)?);
-    let wave = input.profile.waves().first()?;
-    let linear = Linearised::new(system).ok()?;
-    let (waveform, frequency) = (&wave.waveform, wave.frequency);
-    let point = DrivenPoint::of_input(system, &linear, &input.target, waveform, frequency).ok()?;
-    let demand = actuator.demand(&point).at(wave.amplitude);
-    let (limit, used) = demand.tightest().ok().filter(|(_, used)| *used > 1.0)?;
-    Some(format!(
-        "the dither of this study demands {} times what the actuator can give, by {}",
-        digits(used),
-        limit.path()
-    ))
 }
 
 /// The warning about a controller with few samples in a period.

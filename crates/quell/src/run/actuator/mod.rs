@@ -7,6 +7,7 @@
 
 mod answer;
 mod demand;
+mod rating;
 
 use quell_design::actuator::{Actuator, ActuatorAtFrequency, ActuatorCoverage, coverage};
 use quell_design::least_dither::{DesignStart, OperatingPoint, Plant, SystemPlant};
@@ -18,9 +19,9 @@ use quell_model::{Contact, System, Waveform};
 use quell_numerics::order::{ascending, ascending_by};
 use serde_json::Value as Json;
 
-pub(crate) use demand::{
-    beyond_actuator, demand_fields, warning_about_samples, warnings_about_actuator,
-};
+pub(crate) use demand::{demand_fields, warning_about_samples, warnings_about_actuator};
+pub(crate) use rating::beyond_actuator;
+pub(in crate::run) use rating::designed;
 
 use super::design::with_wave;
 use super::system::{self, checked_frequencies, has_equations};
@@ -158,12 +159,6 @@ fn moves(study: &SystemStudy) -> Result<(), Failure> {
     };
     let allowed = "above 0: sliding on it is to be stable";
     Err(Complaint::new(Fault::Value, key, Origin::Whole, 0.0, allowed).into())
-}
-
-/// The dither whose amplitude the study designs, or the first.
-pub(in crate::run) fn designed(study: &SystemStudy) -> usize {
-    let varied = study.design().map_or(&[][..], |design| &design.vary);
-    varied.iter().find_map(|range| study.dither_of(&range.path)).unwrap_or(0)
 }
 
 /// The table of a dither.

@@ -10,6 +10,7 @@ use super::{FoundBy, FoundMotion, PeriodicResponse};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::actuator::beyond_actuator;
 use crate::run::system::of_runs::beyond_laws;
 use crate::study::SystemStudy;
 use crate::words::{capital, digits, plural};
@@ -261,7 +262,9 @@ impl PeriodicResponse {
             let periods = found.multiple;
             Some(format!("the motion of {periods} dither periods repeats itself after {part}: its period is shorter than the one given"))
         });
-        study.warnings().iter().cloned().chain(one_sided).chain(shorter).chain(beyond).collect()
+        let demand = beyond_actuator(study);
+        let own = study.warnings().iter().cloned();
+        own.chain(one_sided).chain(shorter).chain(beyond).chain(demand).collect()
     }
 
     /// As JSON.

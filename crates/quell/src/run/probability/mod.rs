@@ -94,7 +94,7 @@ impl ProbabilityStart {
 }
 
 /// Options of `probability`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ProbabilityRequest {
     /// Number of samples; the default depends on the start.
     pub samples: Option<usize>,
@@ -102,6 +102,12 @@ pub struct ProbabilityRequest {
     pub seed: u64,
     /// What decides whether a sample vibrates.
     pub start: ProbabilityStart,
+}
+
+impl Default for ProbabilityRequest {
+    fn default() -> Self {
+        Self { samples: None, seed: 1, start: ProbabilityStart::default() }
+    }
 }
 
 /// Verdicts of samples.

@@ -11,15 +11,17 @@ use quell_dynamics::response::{
     Effect, ResponsePlan, ResponseRefused, SteadyResponse, SystemEnding, Uncertain, Undefined,
     respond, vibration_frequency,
 };
+use quell_model::System;
 use quell_model::units::Quantity;
 
+use super::actuator::beyond_actuator;
 use super::effect_words::{EffectWords, percent, residual_in_words};
 use super::system::of_runs::{beyond_laws, failed_run, of_engine};
 use super::system::periods::slowest_period;
 use super::system::start::{duration, start_in_words, start_of};
 use super::system::{failed, frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
-use crate::study::SystemStudy;
+use crate::study::{Solver, SystemStudy};
 use crate::words::{digits, listed};
 
 pub use band::InBand;
@@ -96,16 +98,29 @@ pub(crate) fn plan_of(
     study: &SystemStudy,
     request: ResponseRequest,
 ) -> Result<ResponsePlan, Failure> {
-    let (period, own) = (|| slowest_period(study, "--settle"), study.record());
-    let time = |given: Option<f64>, periods: f64| {
-        given.map_or_else(|| Ok(periods * period()?), Ok::<_, Failure>)
+    let own = study.record();
+    let usual = usual_record(study.system());
+    let time = |given: Option<f64>, usual: Option<f64>, periods: f64| match given.or(usual) {
+        Some(time) => Ok(time),
+        None => Ok::<f64, Failure>(periods * slowest_period(study, "--settle")?),
     };
+    let (settle, length) = usual.unzip();
     Ok(ResponsePlan {
         row: study.observe(),
-        settle: time(request.settle.or(own.settle), SETTLE_PERIODS)?,
-        length: time(request.record.or(own.length), RECORD_PERIODS)?,
+        settle: time(request.settle.or(own.settle), settle, SETTLE_PERIODS)?,
+        length: time(request.record.or(own.length), length, RECORD_PERIODS)?,
         tolerance: study.tolerance(),
     })
+}
+
+/// The time that is discarded and the length of the record of one coordinate on a spring, those of a belt however it is written; `None` of
+/// other structures, whose slowest motion decides.
+fn usual_record(system: &System) -> Option<(f64, f64)> {
+    let mechanical = system.structure.mechanical().filter(|mechanical| mechanical.size() == 1)?;
+    let (mass, stiffness) = (mechanical.mass().matrix()[(0, 0)], mechanical.stiffness()[(0, 0)]);
+    let Solver { settle, record_periods, .. } = Solver::default();
+    let time = (mass / stiffness).sqrt();
+    (stiffness > 0.0).then(|| (settle * time, TAU * f64::from(record_periods) * time))
 }
 
 /// Why a response could not be measured.
@@ -261,6 +276,9 @@ impl MeasuredResponse {
     /// Relative loss of the mean friction of a contact against steady sliding without dither; negative for a gain.
     fn friction_loss(&self, contact: usize) -> Result<f64, String> {
         let steady = self.steady_friction(contact)?;
+        if steady == 0.0 {
+            return Err("there is no friction in steady sliding to compare with".to_owned());
+        }
         Ok(1.0 - self.response.dithered.contacts[contact].friction / steady)
     }
 
@@ -275,6 +293,7 @@ impl MeasuredResponse {
         let mut warnings = study.warnings().to_vec();
         warnings.extend(beyond_laws(study, |contact| response.largest_slip(contact)));
         warnings.extend(of_engine(study.system(), &response.dithered.end));
+        warnings.extend(beyond_actuator(study));
         let settle = in_units(study.units(), Quantity::Time, self.plan.settle);
         let runs = [
             ("dithered ", response.dithered_is_settled(), &response.dithered),

@@ -8,6 +8,7 @@ use serde_json::{Map, Value as Json};
 use super::history::KINDS;
 use super::{DEFAULT_PERIODS, Simulation};
 use crate::fields::Fields;
+use crate::run::actuator::beyond_actuator;
 use crate::run::system::in_units_of;
 use crate::run::system::of_runs::{of_engine, put_means};
 use crate::run::system::start::{observed_state, start_in_words};
@@ -114,6 +115,7 @@ impl Simulation {
         let mut warnings = study.warnings().to_vec();
         warnings.extend(self.beyond.iter().cloned());
         warnings.extend(of_engine(study.system(), &self.end));
+        warnings.extend(beyond_actuator(study));
         if self.coarse {
             let count = self.samples.as_ref().map_or(0, |samples| samples.times.len());
             warnings.push(format!(

@@ -1,0 +1,31 @@
+//! Whether a dither is within what the actuator of its study can give, for every verb.
+
+use quell_linear::driven_point::DrivenPoint;
+use quell_linear::linearised::Linearised;
+
+use crate::study::SystemStudy;
+use crate::words::digits;
+
+/// The warning about the dither of a study that demands more than its actuator can give: the dither that `actuator` judges. `None` where
+/// the demand is unknown.
+pub(crate) fn beyond_actuator(study: &SystemStudy) -> Option<String> {
+    let system = study.system();
+    let (actuator, input) = (study.actuator()?, system.inputs.get(designed(study))?);
+    let wave = input.profile.waves().first()?;
+    let linear = Linearised::new(system).ok()?;
+    let (waveform, frequency) = (&wave.waveform, wave.frequency);
+    let point = DrivenPoint::of_input(system, &linear, &input.target, waveform, frequency).ok()?;
+    let demand = actuator.demand(&point).at(wave.amplitude);
+    let (limit, used) = demand.tightest().ok().filter(|(_, used)| *used > 1.0)?;
+    Some(format!(
+        "the dither of this study demands {} times what the actuator can give, by {}",
+        digits(used),
+        limit.path()
+    ))
+}
+
+/// The dither whose amplitude the study designs, or the first.
+pub(in crate::run) fn designed(study: &SystemStudy) -> usize {
+    let varied = study.design().map_or(&[][..], |design| &design.vary);
+    varied.iter().find_map(|range| study.dither_of(&range.path)).unwrap_or(0)
+}
