@@ -86,6 +86,14 @@ fn the_study_of_a_moment_is_the_steady_one() {
     let at = belt.at_time(5.0).expect("a moment").belt().expect("a belt");
     assert!((at.belt().normal_load() - 2.0).abs() < 1e-15);
     assert_eq!(at.belt().dithers()[0].amplitude, 1.0);
+    // A belt that moves backwards then is refused by the key of its drive.
+    let reversing = study(
+        "[belt]\ndamping_ratio = 0.1\nnormal_load = 1\n[belt.drive]\ntime = [0, 10]\nvelocity = [0.3, -0.3]\n\
+         [friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n",
+    );
+    assert!(reversing.at_time(4.0).is_ok());
+    let why = reversing.at_time(8.0).expect_err("backwards").to_string();
+    assert!(why.contains("belt.drive") && why.contains("[system]"), "{why}");
     let system = study(
         "[system]\ncoordinates = [\"x\"]\nmass = [1]\nstiffness = [1]\n[[contact]]\ntangent = { x = 1 }\nnormal_load = 1\n\
          belt_velocity = 0.5\n[contact.drive]\noscillation = { amplitude = 0.2, frequency = 3, phase = 1 }\n\

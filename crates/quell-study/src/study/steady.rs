@@ -20,7 +20,7 @@ impl Study {
         self.kind().template().noise()
     }
 
-    /// The steady study with the velocities, loads and amplitudes of a time.
+    /// The steady study with the velocities, loads and amplitudes of a time of its system.
     ///
     /// # Errors
     /// All complaints about the study of that moment: a belt that stands still or moves backwards is none.

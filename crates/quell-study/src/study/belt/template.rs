@@ -1,8 +1,9 @@
 //! A belt as the template of a study.
 
-use quell_input::complaint::Complaints;
+use quell_input::complaint::{Complaint, Complaints, Fault, Origin};
 use quell_input::document::{Table, Value};
 use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter, indexed};
+use quell_model::units::Quantity;
 
 use super::BeltSetup;
 use crate::study::path;
@@ -49,12 +50,20 @@ impl Template for BeltSetup {
         let scales = belt.scales();
         // The moment is one of the system.
         let time = scales.map_or(time, |scales| scales.angular_frequency() * time);
+        let velocity = belt.belt_velocity_at(time);
+        if velocity < 0.0 {
+            let own =
+                scales.map_or(velocity, |scales| scales.to_units(Quantity::Velocity, velocity));
+            let allowed = "a drive that does not move backwards at --at-time: the same study as [system] takes either direction";
+            let origin = Origin::Argument("--at-time");
+            return Err(Complaint::new(Fault::Value, "belt.drive", origin, own, allowed).into());
+        }
         if let Some(Value::Table(table)) = document.get_mut("belt").map(|node| &mut node.value) {
             let mut set = |name: &str, parameter: Parameter, value: f64| {
                 let own = scales.map_or(value, |scales| scales.to_units(parameter.quantity, value));
                 replace(table, name, parameter, own);
             };
-            set("drive", BELT_VELOCITY, belt.belt_velocity_at(time));
+            set("drive", BELT_VELOCITY, velocity);
             let load = belt.load().map_or(belt.normal_load(), |load| load.value(time));
             set("load", NORMAL_LOAD, load);
         }
