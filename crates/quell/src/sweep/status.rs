@@ -210,7 +210,7 @@ impl Status {
             }
             Self::UnditheredUnknown => "where the undithered run from this start ends is unknown",
             Self::StillChanging => {
-                "the vibration still changes within the record: raise solver.settle"
+                "the vibration still changes within the record: settle for longer"
             }
             Self::Unresolved => "the dither changes the vibration by less than the record resolves",
             Self::OnlyNormalDither => {

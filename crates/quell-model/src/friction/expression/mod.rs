@@ -22,6 +22,7 @@ use super::series::side_by_side;
 use super::{
     BranchSeries, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
 };
+use crate::digits::digits;
 use crate::parameter::{MAXIMUM_VELOCITY, Parameter, STATIC_COEFFICIENT};
 use crate::{Invalid, InvalidValues};
 
@@ -287,9 +288,9 @@ impl Expression {
             even &= (above - below).abs() <= close;
             odd &= (above + below).abs() <= close;
             if !even && !odd {
+                let [speed, above, below] = [speed, above, below].map(|value| digits(value, 6));
                 return Err(format!(
-                    "the same in both directions of slip; at v = ±{speed:.6} it is {above:.6} and {below:.6}. Write \
-                     abs(v) for the slip speed"
+                    "the same in both directions of slip; at v = ±{speed} it is {above} and {below}. Write abs(v) for the slip speed"
                 ));
             }
         }

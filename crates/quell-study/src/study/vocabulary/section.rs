@@ -162,13 +162,15 @@ impl Section {
             Self::Belt => "mass, spring and damper on a moving belt",
             Self::Initial | Self::SystemInitial => "initial state of a run [default: at rest]",
             Self::Drive => {
-                "velocity of the surface over time, instead of or added to belt_velocity"
+                "velocity of the surface over time: knots instead of belt_velocity, or an oscillation added to it"
             }
             Self::DriveOscillation
             | Self::LoadOscillation
             | Self::DiscDriveOscillation
             | Self::LoadEnvelopeOscillation => "a sine that is added to the constant value",
-            Self::Load => "normal load over time, instead of or added to normal_load",
+            Self::Load => {
+                "normal load over time: knots instead of normal_load, or an oscillation added to it"
+            }
             Self::Friction => "the friction law",
             Self::Constants => "named numbers of a formula",
             Self::System => "the linear structure",
@@ -177,7 +179,7 @@ impl Section {
             Self::Contact => "a friction contact",
             Self::Dither => "one dither force; several as [[dither]]",
             Self::DiscDrive => {
-                "speed of the disc over time, instead of or added to disc.load.speed"
+                "speed of the disc over time: knots instead of disc.load.speed, or an oscillation added to it"
             }
             Self::LoadEnvelope => "share of the normal load, and with it of friction, over time",
             Self::Envelope => "share of the amplitude over time",

@@ -120,14 +120,8 @@ impl FinishedMap {
             let not = points.filter(|point| self.number(settled, *point) == Some(0.0)).count();
             if not > 0 {
                 let have = if not == 1 { "has" } else { "have" };
-                let is_belt = self.plan.grid().study().belt().is_ok();
-                let advice = if is_belt {
-                    "raise solver.settle or solver.record_periods"
-                } else {
-                    "`response --settle` has one point after a longer time"
-                };
                 warnings.push(format!(
-                    "{not} of {} points {have} not settled (see `settled`): {advice}",
+                    "{not} of {} points {have} not settled (see `settled`): `response --settle` has one point after a longer time",
                     self.plan.grid().len()
                 ));
             }

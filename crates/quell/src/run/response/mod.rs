@@ -125,9 +125,10 @@ fn usual_record(system: &System) -> Option<(f64, f64)> {
 
 /// Why a response could not be measured.
 pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRefused) -> Failure {
+    let counts = study.document().pointer("/solver/record_periods").is_some();
     let record = |bound: &str, limit: f64, why: &str| match study.record().length {
         // The study counts slow periods.
-        Some(length) if length == plan.length => {
+        Some(length) if counts && length == plan.length => {
             let slow = study.system().one_averaged_mass().map_or(1.0, |mass| TAU / mass.rate());
             let allowed = format!("{bound} {}, {why}", digits(limit / slow));
             let periods = digits(length / slow);
