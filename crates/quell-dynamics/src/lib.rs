@@ -6,7 +6,7 @@
 //! * [`orbit`]: periodic responses, their Floquet multipliers, exact thresholds, limit cycles;
 //! * [`attractor`]: where runs settle, rotation numbers, basins;
 //! * [`mean_friction`]: the average of friction with a state of its own, under a prescribed slip;
-//! * [`start`], [`response`]: initial states; the steady response of a run, its spectrum, residual vibration and costs.
+//! * [`response`]: the steady response of a run, its spectrum, residual vibration and costs.
 
 pub mod attractor;
 mod band;
