@@ -46,8 +46,9 @@ BESIDE = {
     "quell.from_abaqus",
     "quell.from_nastran",
     "quell.from_universal_file",
+    "quell.load",
 }
-"""Functions that only Python has: about axes and names of maps, the fits whose results have arrays, and files of other programs."""
+"""Functions that only Python has: about axes and names of maps, the fits whose results have arrays, files, and those of other programs."""
 
 FITS = {"fit_record"}
 """Methods that are an option of a verb of the command line."""
