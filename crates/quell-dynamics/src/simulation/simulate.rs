@@ -28,7 +28,12 @@ pub fn simulate(
     observer: &mut dyn Observer,
 ) -> Result<FinalState, Stalled> {
     let run = SimulationRun { belt, start, until, observer };
-    let outcomes = simulate_many_with(InstructionSet::Fma, vec![run], tolerance);
+    alone(run, RunTerms { tolerance, branch: None })
+}
+
+/// One run by itself.
+fn alone(run: SimulationRun<'_>, terms: RunTerms) -> Result<FinalState, Stalled> {
+    let outcomes = side_by_side(InstructionSet::Fma, vec![run], terms);
     outcomes.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED))
 }
 
@@ -71,9 +76,7 @@ pub(crate) fn continue_slip(
     observer: &mut dyn Observer,
 ) -> Result<FinalState, Stalled> {
     let run = SimulationRun { belt, start, until, observer };
-    let terms = RunTerms { tolerance, branch: Some(sign) };
-    let outcomes = side_by_side(InstructionSet::Fma, vec![run], terms);
-    outcomes.into_iter().next().unwrap_or(Err(Stalled::NEVER_STARTED))
+    alone(run, RunTerms { tolerance, branch: Some(sign) })
 }
 
 #[cfg(test)]

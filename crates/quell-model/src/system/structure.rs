@@ -51,6 +51,13 @@ impl Structure {
             Self::StateSpace(_) => None,
         }
     }
+
+    /// The natural frequency √(k/m) of one coordinate with a spring; `None` of other structures.
+    pub fn natural_frequency(&self) -> Option<f64> {
+        let mechanical = self.mechanical().filter(|mechanical| mechanical.size() == 1)?;
+        let ratio = mechanical.stiffness()[(0, 0)] / mechanical.mass().matrix()[(0, 0)];
+        (ratio > 0.0).then(|| ratio.sqrt())
+    }
 }
 
 impl From<Mechanical> for Structure {

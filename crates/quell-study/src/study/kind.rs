@@ -35,9 +35,7 @@ impl Kind {
             DocumentKind::Belt => {
                 BeltSetup::assembled(reader, document).map(|setup| setup.system().system().clone())
             }
-            DocumentKind::Disc => {
-                Self::described(reader, document).map(|setup| setup.system().clone())
-            }
+            DocumentKind::Disc => DiscSetup::read(reader, document).map(|setup| setup.equations()),
             DocumentKind::System => system::assemble(reader, document),
         }
     }

@@ -3,7 +3,7 @@
 use quell_model::system::InputTarget;
 use quell_model::{Contact, Direction, LawKind, System};
 
-use crate::study::{DiscStudy, Kind, Study};
+use crate::study::{DiscStudy, Study};
 
 /// A study as its sources see it: a belt is its system.
 pub(super) enum CitedStudy {
@@ -16,14 +16,9 @@ pub(super) enum CitedStudy {
 impl CitedStudy {
     /// That of a study.
     pub(super) fn of(study: &Study) -> Self {
-        match study.kind() {
-            Kind::Belt(setup) => {
-                Self::System(Box::new(study.narrowed(setup.as_ref()).belt().system()))
-            }
-            Kind::Disc(setup) => Self::Disc(Box::new(study.narrowed(setup.as_ref()))),
-            Kind::System(setup) => {
-                Self::System(Box::new(study.narrowed(setup.as_ref()).system().clone()))
-            }
+        match study.disc() {
+            Ok(disc) => Self::Disc(Box::new(disc)),
+            Err(_) => Self::System(Box::new(study.system().system().clone())),
         }
     }
 

@@ -21,10 +21,10 @@ use std::sync::Arc;
 use quell_disc::plate::PlateMaterial;
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::Table;
-use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions, DiscDither};
 use quell_model::parameter::disc::LOAD_SLIP_RATIO;
 use quell_model::units::{DiscScales, measure};
+use quell_model::{Disc, System};
 
 use super::StudyOf;
 use super::address::units_of;
@@ -137,6 +137,11 @@ impl DiscSetup {
     /// The disc in the numbers of the equations, whole.
     pub fn disc(&self) -> &Disc {
         &self.disc
+    }
+
+    /// The equations of its modes with the contributions that are switched on.
+    pub(super) fn equations(&self) -> System {
+        self.disc.system_of(self.parts)
     }
 
     /// The row of the deflection under the first load; of the first coordinate where there is no load.

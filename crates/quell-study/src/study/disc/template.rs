@@ -26,8 +26,7 @@ impl Template for DiscSetup {
         let time = source
             .reference_hz(self.plate.material.as_ref())
             .map(|hertz| ScaledTime { per_second: TAU * hertz, plain_in_seconds: is_si(document) });
-        let system = self.disc.system_of(self.parts);
-        let setup = SystemSetup::of(system, UnitSystem::None, self.observed_row());
+        let setup = SystemSetup::of(self.equations(), UnitSystem::None, self.observed_row());
         SystemSetup { warnings: self.plate.warnings.clone(), time, ..setup }
     }
 

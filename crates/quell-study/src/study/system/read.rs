@@ -15,7 +15,7 @@ use super::dither::{self, DitherContext, ReadDithers};
 use super::frequency_response;
 use super::modes;
 use super::rows::RowBasis;
-use super::setup::{RecordSettings, SystemSetup, natural_frequency};
+use super::setup::{RecordSettings, SystemSetup};
 use super::structure::{self, ReadStructure};
 use super::{initial, parameters, sized, unused};
 use crate::study::actuator;
@@ -118,7 +118,7 @@ impl<'t> SystemEquations<'t> {
         reader.unknown_keys(table, Section::System, "system");
         let body = reader.part(table, (), |reader| Some(body(reader, table, header)));
         let (ReadStructure { basis, structure }, response) = body?;
-        reader.set_natural_frequency(structure.as_ref().and_then(natural_frequency));
+        reader.set_natural_frequency(structure.as_ref().and_then(Structure::natural_frequency));
         // Without names no row can be read.
         let basis = basis?;
         let first_order = table.has("states");

@@ -7,7 +7,6 @@ use quell_input::document::Table;
 use quell_input::frequency_response::FrequencyResponse;
 use quell_model::System;
 use quell_model::parameter::DITHER_AMPLITUDE;
-use quell_model::system::Structure;
 use quell_model::units::UnitSystem;
 
 use super::initial::SystemStart;
@@ -106,7 +105,7 @@ impl SystemSetup {
     pub(super) fn reader(&self) -> Reader {
         let mut reader = Reader::in_units(self.units, EquationScale::OfTheFile);
         reader.set_named(self.named.clone());
-        reader.set_natural_frequency(natural_frequency(&self.system.structure));
+        reader.set_natural_frequency(self.system.structure.natural_frequency());
         reader
     }
 
@@ -125,11 +124,4 @@ impl SystemSetup {
         let factor = if in_si { self.units.si_per_unit(DITHER_AMPLITUDE.quantity)? } else { 1.0 };
         Some(wave.amplitude * of_unit * factor)
     }
-}
-
-/// The natural frequency √(k/m) of one coordinate with a spring.
-pub(super) fn natural_frequency(structure: &Structure) -> Option<f64> {
-    let mechanical = structure.mechanical().filter(|mechanical| mechanical.size() == 1)?;
-    let ratio = mechanical.stiffness()[(0, 0)] / mechanical.mass().matrix()[(0, 0)];
-    (ratio > 0.0).then(|| ratio.sqrt())
 }

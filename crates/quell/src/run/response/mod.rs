@@ -116,11 +116,9 @@ pub(crate) fn plan_of(
 /// The time that is discarded and the length of the record of one coordinate on a spring, those of a belt however it is written; `None` of
 /// other structures, whose slowest motion decides.
 fn usual_record(system: &System) -> Option<(f64, f64)> {
-    let mechanical = system.structure.mechanical().filter(|mechanical| mechanical.size() == 1)?;
-    let (mass, stiffness) = (mechanical.mass().matrix()[(0, 0)], mechanical.stiffness()[(0, 0)]);
+    let frequency = system.structure.natural_frequency()?;
     let Solver { settle, record_periods, .. } = Solver::default();
-    let time = (mass / stiffness).sqrt();
-    (stiffness > 0.0).then(|| (settle * time, TAU * f64::from(record_periods) * time))
+    Some((settle / frequency, TAU * f64::from(record_periods) / frequency))
 }
 
 /// Why a response could not be measured.
