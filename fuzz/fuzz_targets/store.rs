@@ -9,9 +9,10 @@ use std::sync::atomic::AtomicBool;
 
 use libfuzzer_sys::fuzz_target;
 use quell::BeltStudy;
-use quell::run::map::run;
+use quell::map::run;
 use quell::store::{ChunkState, Store};
-use quell::sweep::{MapQuantity, Plan, Running};
+use quell::running::Running;
+use quell::sweep::{MapQuantity, Plan};
 
 const MAP: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1\nbelt_velocity = 0.05\n\
     [friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n\

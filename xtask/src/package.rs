@@ -19,6 +19,8 @@ const ORDER: &[&str] = &[
     "quell-plot",
     "quell-input",
     "quell-study",
+    "quell-verbs",
+    "quell-maps",
     "quell",
     "quell-reproduce",
     "quell-cli",

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use quell::sweep::Progress;
+use quell::running::Progress;
 use quell_reproduce::EntryProgress;
 
 use crate::answer::print_error;

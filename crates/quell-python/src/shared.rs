@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use quell::run::map::Shared;
+use quell::map::Shared;
 use quell::sweep::Shard;
 
 use crate::answer::NativeAnswer;

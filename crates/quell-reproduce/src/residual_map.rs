@@ -16,13 +16,15 @@ use super::product::{Cell, DataTable, Product};
 use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
+use quell::map::{FinishedMap, boundaries, run};
 use quell::picture::{self, MapAxis, MapKind};
 use quell::plot::{
     Figure, Legend, LineStyle, Panel, PlotAxis, PlotRole, Polyline, SharedLegend, Sharing, Size,
 };
-use quell::run::map::{FinishedMap, boundaries, run};
+use quell::running::Running;
+use quell::status::Status;
 use quell::study::BeltStudy;
-use quell::sweep::{MapQuantity, Plan, Running, Status};
+use quell::sweep::{MapQuantity, Plan};
 
 /// Path of the family of belt velocities.
 pub(super) const VELOCITIES: &str = "belt.belt_velocity";

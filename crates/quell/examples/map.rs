@@ -4,9 +4,10 @@
 
 use std::sync::atomic::AtomicBool;
 
+use quell::map;
 use quell::outcome::Outcome;
-use quell::run::map;
-use quell::sweep::{MapQuantity, Plan, Running};
+use quell::running::Running;
+use quell::sweep::{MapQuantity, Plan};
 use quell::{Failure, Study};
 
 /// A Stribeck belt with two axes.

@@ -67,8 +67,9 @@
 //! # use quell::BeltStudy;
 //! use std::sync::atomic::AtomicBool;
 //!
-//! use quell::run::map;
-//! use quell::sweep::{MapQuantity, Plan, Running};
+//! use quell::map;
+//! use quell::running::Running;
+//! use quell::sweep::{MapQuantity, Plan};
 //!
 //! # fn main() -> Result<(), quell::Failure> {
 //! # let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
@@ -153,34 +154,23 @@
 //! | [`sound`] | the velocity of a motion as a sound file |
 //! | [`cite`], [`template`] | sources of a study's computations; commented studies to start from |
 
-pub mod cite;
-mod contact_state;
-pub mod dataset;
-mod effort;
-pub mod fields;
 pub mod html;
 pub mod keys;
-pub mod needs;
-mod noise;
 pub mod outcome;
-pub mod output;
-pub mod parallel;
 pub mod picture;
-mod range;
-mod removed_mean;
 pub mod report;
-pub mod run;
-pub mod sound;
-pub mod store;
-pub mod sweep;
 pub mod table_file;
 pub mod template;
 pub mod verbs;
-pub mod words;
 
 pub use quell_input::{complaint, document, input, measurement, nearest, record};
+pub use quell_maps::{map, store, sweep};
 pub use quell_plot as plot;
 pub use quell_study::{quantity, schema, study};
+pub use quell_verbs::{
+    cite, dataset, fields, needs, output, parallel, run, running, sound, status, words,
+};
+use quell_verbs::{disc_units, noise};
 
 pub use complaint::{Complaint, Complaints, Failure, Fault, Origin};
 pub use study::{BeltStudy, Change, DiscStudy, Study};

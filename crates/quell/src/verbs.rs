@@ -27,8 +27,8 @@ use crate::run::{
     actuator, bifurcation, describing, found_attractor, friction, noise_response, orbit,
     probability, ramp, response, simulate, stability, thresholds, waveforms, window,
 };
+use crate::running::Running;
 use crate::study::{DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy, not_periodic};
-use crate::sweep::Running;
 
 /// The answer of a verb, or why it failed.
 pub type Reply = Result<Box<dyn Outcome>, Failure>;

@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::Path;
 
+use quell::map::run as map;
 use quell::outcome::{Answered, Outcome};
 use quell::run::disc::{modes, resonances, stability};
-use quell::run::map::run as map;
+use quell::running::Running;
 use quell::study::DiscStudy;
-use quell::sweep::{Grid, MapQuantity, Plan, Running};
+use quell::sweep::{Grid, MapQuantity, Plan};
 use quell::{Change, Complaints};
 use quell_numerics::floquet::Effort;
 use serde_json::Value as Json;
@@ -24,7 +25,7 @@ fn good(text: &str) -> DiscStudy {
     parse(text).unwrap_or_else(|errors| panic!("{errors:#?}"))
 }
 
-fn computed(study: &DiscStudy, quantity: &str) -> quell::run::map::FinishedMap {
+fn computed(study: &DiscStudy, quantity: &str) -> quell::map::FinishedMap {
     let quantity = MapQuantity::named(quantity, "--quantity").expect("a quantity");
     let plan = Plan::new(study, &[quantity]).expect("axes");
     let stop = std::sync::atomic::AtomicBool::new(false);

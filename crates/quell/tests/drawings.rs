@@ -13,7 +13,7 @@ use quell::run::orbit::{self, Wanted};
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::{self, curves};
 use quell::run::varied::Range;
-use quell::sweep::Running;
+use quell::running::Running;
 use quell::verbs::{system_of, verbs};
 use quell::{BeltStudy, Change, DiscStudy, Study, picture};
 use serde_json::Value as Json;

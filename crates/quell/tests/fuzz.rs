@@ -6,9 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use quell::run::map::run;
+use quell::map::run;
+use quell::running::Running;
 use quell::store::{ChunkState, Store};
-use quell::sweep::{MapQuantity, Plan, Running};
+use quell::sweep::{MapQuantity, Plan};
 use quell::{BeltStudy, Failure, Fault, Study};
 
 /// Random numbers with a fixed seed (splitmix64).

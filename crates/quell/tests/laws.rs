@@ -2,12 +2,15 @@
 //!
 //! Numbers: `reference/laws.json` (source and tolerance in `reference/README.md`); published cases with their source.
 
+use quell::map;
 use quell::run::orbit::Wanted;
 use quell::run::response::ResponseRequest;
 use quell::run::simulate::{MotionRequest, Simulation};
-use quell::run::{basins, bifurcation, map, simulate, thresholds, varied};
+use quell::run::{basins, bifurcation, simulate, thresholds, varied};
+use quell::running::Running;
+use quell::status::Status;
 use quell::study::{BeltStudy, Change};
-use quell::sweep::{MapQuantity, Plan, Running, Status};
+use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::verbs;
 use quell_linear::averaging::{AveragedLaw, Averaging, Effective, FastMotion};
 use serde_json::Value as Json;

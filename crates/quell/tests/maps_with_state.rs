@@ -9,7 +9,8 @@ use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
 use quell::run::response::ResponseRequest;
 use quell::run::thresholds::ThresholdsRequest;
-use quell::sweep::{MapQuantity, Plan, QUANTITIES, Running};
+use quell::running::Running;
+use quell::sweep::{MapQuantity, Plan, QUANTITIES};
 use quell::verbs::verbs;
 use serde_json::Value as Json;
 
@@ -33,7 +34,7 @@ fn map(text: &str, quantities: &[&str]) -> Json {
     let plan = Plan::new(study(text), &asked).expect("a plan");
     let never = AtomicBool::new(false);
     let running = Running { threads: Some(1), stop: &never, progress: &() };
-    quell::run::map::run(plan, None, running).expect("a map").json()
+    quell::map::run(plan, None, running).expect("a map").json()
 }
 
 /// The laws with a state, as the keys of a contact and its table of friction: an elastic slider and bristles.

@@ -7,7 +7,8 @@ use quell::run::probability::ProbabilityRequest;
 use quell::run::response::ResponseRequest;
 use quell::run::system::tracked::TrackRequest;
 use quell::run::thresholds::ThresholdsRequest;
-use quell::sweep::{MapQuantity, Plan, Running};
+use quell::running::Running;
+use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::verbs;
 use quell_design::quench::quench;
 use quell_model::units::Quantity;
@@ -162,7 +163,7 @@ fn map(text: &str, quantities: &[&str]) -> Json {
     let plan = Plan::new(study(text), &asked).expect("a plan");
     let never = AtomicBool::new(false);
     let running = Running { threads: Some(1), stop: &never, progress: &() };
-    quell::run::map::run(plan, None, running).expect("a map").json()
+    quell::map::run(plan, None, running).expect("a map").json()
 }
 
 /// The unprefixed keys of every verb are those of its sentence, by finite-R averaging; the limit has names of its own.

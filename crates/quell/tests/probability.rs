@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use quell::run::probability::{ProbabilityRequest, ProbabilityStart};
-use quell::sweep::Running;
+use quell::running::Running;
 use quell::verbs::verbs;
 use quell::{Failure, Study};
 use serde_json::Value as Json;

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use quell::Study;
+use quell::picture::sketch::sketch;
 use quell::plot::Sketch;
-use quell::run::sketch::run;
 use quell::study::{Change, Kind};
 use quell::template::TEMPLATES;
 use quell_model::system::InputTarget;
@@ -36,7 +36,7 @@ fn all() -> Vec<(String, Study)> {
 }
 
 fn drawn(study: &Study, width: f64) -> Sketch {
-    run(study, Some(width)).expect("a sketch").sketch
+    sketch(study, Some(width)).expect("a sketch")
 }
 
 fn parse(text: &str) -> Study {
@@ -267,7 +267,7 @@ fn a_disc_with_several_loads_pads_and_areas_is_drawn() {
 fn widths_out_of_range_are_refused() {
     let study = parse(CHAIN);
     for width in [79.0, 401.0, 0.0, -85.0, f64::NAN, f64::INFINITY] {
-        let refused = run(&study, Some(width)).expect_err("refused").to_string();
+        let refused = sketch(&study, Some(width)).expect_err("refused").to_string();
         assert!(refused.contains("80 to 400 mm"), "{refused}");
     }
     for text in ["85", "", "mm", "NaNmm", "79mm", "85 furlongs"] {

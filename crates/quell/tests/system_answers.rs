@@ -5,7 +5,8 @@ use std::sync::atomic::AtomicBool;
 use quell::Study;
 use quell::outcome::Outcome;
 use quell::run::system::tracked::TrackRequest;
-use quell::sweep::{MapQuantity, Plan, Running};
+use quell::running::Running;
+use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::verbs;
 use quell_linear::averaging::AveragingError;
 use quell_linear::linearised::NoSteadySliding;
@@ -66,7 +67,7 @@ fn map(text: &str, quantity: &str) -> Json {
     let plan = Plan::new(&study, &[asked]).expect("a plan");
     let never = AtomicBool::new(false);
     let running = Running { threads: Some(1), stop: &never, progress: &() };
-    quell::run::map::run(plan, None, running).expect("a map").json()
+    quell::map::run(plan, None, running).expect("a map").json()
 }
 
 #[test]

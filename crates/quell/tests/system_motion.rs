@@ -11,7 +11,7 @@ use quell::run::orbit::Wanted;
 use quell::run::protocol::{Protocol, read_state_of};
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::varied::Range;
-use quell::sweep::Running;
+use quell::running::Running;
 use quell::verbs::verbs;
 use serde_json::Value as Json;
 

@@ -11,7 +11,7 @@ use quell::run::protocol::Protocol;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::run::thresholds::curves::CurvesRequest;
 use quell::run::varied::Range;
-use quell::sweep::Running;
+use quell::running::Running;
 use quell::verbs::{system_of, verbs};
 use serde_json::Value as Json;
 

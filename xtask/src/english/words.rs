@@ -50,7 +50,7 @@ pub(super) const WORDS: &[AvoidedWord] = &[
 /// Files and folders that are not checked, with the reason.
 #[rustfmt::skip]
 pub(super) const EXCLUDED: &[(&str, &str)] = &[
-    ("docs/book/src/errata.md",      "generated from crates/quell/src/cite/corrections.rs"),
+    ("docs/book/src/errata.md",      "generated from crates/quell-verbs/src/cite/corrections.rs"),
     ("out/",                         "results of runs, which are not part of the repository"),
     ("xtask/src/english/words.rs",   "the list itself"),
     ("xtask/src/english/planted.rs", "texts planted for the tests of this check"),

@@ -35,8 +35,31 @@ const ENGINES_AND_STUDIES: &[&str] = &[
     "quell-linear",
     "quell-model",
     "quell-numerics",
+    "quell-study",
+];
+const VERBS: &[&str] = &[
+    "quell-design",
+    "quell-disc",
+    "quell-dynamics",
+    "quell-input",
+    "quell-linear",
+    "quell-model",
+    "quell-numerics",
+    "quell-study",
+    "quell-verbs",
+];
+const ANSWERS_AND_FIGURES: &[&str] = &[
+    "quell-design",
+    "quell-disc",
+    "quell-dynamics",
+    "quell-input",
+    "quell-linear",
+    "quell-maps",
+    "quell-model",
+    "quell-numerics",
     "quell-plot",
     "quell-study",
+    "quell-verbs",
 ];
 const CLIENT: &[&str] =
     &["quell", "quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics"];
@@ -63,7 +86,9 @@ pub(crate) const LAYERS: &[CrateLayer] = &[
     layer("quell-plot",     NOTHING,     "a figure is data plus a renderer, independent of physics and studies"),
     layer("quell-input",    NOUNS, "text and files before they are a study: no key, no unit system, no engine"),
     layer("quell-study",    PHYSICS_AND_INPUT,     "reads and checks studies; computes nothing"),
-    layer("quell",          ENGINES_AND_STUDIES, "runs the physics, independent of its clients"),
+    layer("quell-verbs",    ENGINES_AND_STUDIES, "a question in, a typed answer out: no picture and no report"),
+    layer("quell-maps",     VERBS,       "values over axes, computed, stored and shared: no picture"),
+    layer("quell",          ANSWERS_AND_FIGURES, "the front door presents answers, independent of its clients"),
     layer("quell-reproduce", CLIENT,     "the dissertation is a client of `quell`; only user interfaces use it"),
     layer("quell-cli",      FRONT_DOOR,  "a user interface parses and displays: no physics, no other interface"),
     layer("quell-python",   FRONT_DOOR,  "a user interface parses and displays: no physics, no other interface"),
@@ -95,18 +120,18 @@ const fn confined(
 /// Confined dependencies, with the crates that may use them.
 #[rustfmt::skip]
 pub(crate) const CONFINED: &[Confined] = &[
-    confined("rayon",      &["quell"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
+    confined("rayon",      &["quell-maps", "quell-verbs"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
     confined("toml",       &["quell-input", "xtask"],    true,  "study files are read by one crate; xtask reads manifests; tests compare studies with their schema"),
-    confined("zarrs",      &["quell"],              false, "stores are written by one crate, atomically"),
+    confined("zarrs",      &["quell-maps"],              false, "stores are written by one crate, atomically"),
     confined("png",        &["quell-plot"],         true,  "pictures are drawn by one crate; tests decode them"),
     confined("resvg",      &["quell-plot"],         false, "pictures are drawn by one crate"),
     confined("svg2pdf",    &["quell-plot"],         false, "pictures are drawn by one crate"),
-    confined("rustix",     &["quell", "quell-input"], false, "untrusted files are opened by two crates: studies and stores"),
+    confined("rustix",     &["quell-input", "quell-maps"], false, "untrusted files are opened by two crates: studies and stores"),
     confined("signal-hook", &["quell-cli"],         false, "signals are handled by the program that owns the process"),
     confined("clap",       &["quell-cli"],          false, "arguments are parsed by the command line alone"),
     confined("indicatif",  &["quell-cli"],          false, "progress bars are shown by the command line alone"),
     confined("pyo3",       &["quell-python"],       false, "the core does not depend on its bindings"),
     confined("numpy",      &["quell-python"],       false, "the core does not depend on its bindings"),
     confined("serde",      &["quell-python"],       false, "no type of Quell is serialised; the dependency only sets features"),
-    confined("serde_json", &["quell", "quell-cli", "quell-input", "quell-plot", "quell-python", "quell-reproduce", "quell-study"], true,  "JSON is read and written by few crates; tests of any crate may read reference numbers"),
+    confined("serde_json", &["quell", "quell-cli", "quell-input", "quell-maps", "quell-plot", "quell-python", "quell-reproduce", "quell-study", "quell-verbs"], true,  "JSON is read and written by few crates; tests of any crate may read reference numbers"),
 ];

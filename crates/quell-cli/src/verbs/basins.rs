@@ -4,7 +4,7 @@ use clap::Args;
 use quell::run::basins::{BasinsRequest, PlaneAxis, StartLayout, default_plane, read_plane};
 use quell::run::varied::Range;
 use quell::study::SystemStudy;
-use quell::sweep::Running;
+use quell::running::Running;
 use quell::verbs::{system_of, verbs};
 use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 use quell_model::units::Quantity;

@@ -3,7 +3,7 @@
 use clap::{Args, ValueHint};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::varied::Range;
-use quell::sweep::Running;
+use quell::running::Running;
 use quell::verbs::verbs;
 use quell::{Failure, Study};
 

@@ -9,9 +9,10 @@ use quell::needs::Needs;
 use quell::outcome::{Outcome, named};
 use quell::output::Output;
 use quell::picture;
-use quell::run::map::run as map;
+use quell::map::run as map;
 use quell::store::Store;
-use quell::sweep::{Grid, MOST_THREADS, MapQuantity, Plan, QUANTITIES, Running};
+use quell::running::{MOST_THREADS, Running};
+use quell::sweep::{Grid, MapQuantity, Plan, QUANTITIES};
 use quell::table_file::TableFormat;
 use quell::{Complaint, Failure, Fault, Origin};
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use quell::Failure;
 use quell::run::probability::{ProbabilityRequest, ProbabilityStart};
-use quell::sweep::Running;
+use quell::running::Running;
 use quell::verbs::verbs;
 
 use super::map::threads;

@@ -2,8 +2,9 @@
 use crate::answer::Answer;
 use crate::interrupt;
 use crate::progress::Bar;
-use quell::run::map::{Sharded, Shared};
-use quell::sweep::{Plan, Running, Shard};
+use quell::map::{Sharded, Shared};
+use quell::running::Running;
+use quell::sweep::{Plan, Shard};
 use quell::{Complaint, Failure, Fault, Origin};
 use std::fmt::Write as _;
 use std::path::Path;

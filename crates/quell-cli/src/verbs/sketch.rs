@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::output::Output;
+use quell::Failure;
 use quell::picture::{EXTENSIONS, sketch};
-use quell::{Failure, run};
 
 use crate::answer::Answer;
 use crate::arguments::{Gathered, StudyArguments, inputs};
@@ -33,13 +33,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let width = complaints.take(arguments.width.as_deref().map(sketch::width).transpose());
     let (study, (output, width)) = complaints.finish(study.zip(output.zip(width)))?;
 
-    let drawn = run::sketch::run(&study, width)?;
-    let mut object = drawn.json();
-    let written = sketch::write(&drawn.sketch, output)?;
+    let drawn = sketch::sketch(&study, width)?;
+    let mut object = sketch::json(&drawn);
+    let written = sketch::write(&drawn, output)?;
     object["saved"] = vec![written.as_str()].into();
     Ok(Answer::new(arguments.study.json, &object, || {
         let mut text = String::new();
-        let (width, height) = (drawn.sketch.width_mm, drawn.sketch.height_mm());
+        let (width, height) = (drawn.width_mm, drawn.height_mm());
         let _ = writeln!(text, "Saved {written}: {width} mm × {height:.0} mm.");
         text
     }))

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use pyo3::prelude::*;
-use quell::run::map::run as front_door;
+use quell::map::run as front_door;
+use quell::running::{MOST_THREADS, Progress, Running};
 use quell::store::Store;
-use quell::sweep::{MOST_THREADS, MapQuantity, Plan, Progress, Running};
+use quell::sweep::{MapQuantity, Plan};
 use quell::{Failure, Study};
 
 use super::refused;

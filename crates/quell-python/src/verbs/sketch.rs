@@ -4,7 +4,7 @@ use std::path::Path;
 
 use quell::output::Output;
 use quell::picture::{EXTENSIONS, sketch};
-use quell::{Failure, Study, run};
+use quell::{Failure, Study};
 
 /// Runs the verb: the drawing as SVG, and in a file if `path` is given, in the format of its name.
 pub(crate) fn run(
@@ -15,9 +15,9 @@ pub(crate) fn run(
     let inputs = study.inputs();
     let output = path.map(|path| Output::prepare(path, "path", EXTENSIONS, &inputs));
     let output = output.transpose()?;
-    let drawn = run::sketch::run(study, width.map(sketch::width).transpose()?)?;
+    let drawn = sketch::sketch(study, width.map(sketch::width).transpose()?)?;
     if let Some(output) = output {
-        sketch::write(&drawn.sketch, output)?;
+        sketch::write(&drawn, output)?;
     }
-    Ok(drawn.sketch.to_svg())
+    Ok(drawn.to_svg())
 }

@@ -2,10 +2,11 @@
 
 use serde_json::Value as Json;
 
+use super::simulate::figure_with;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
+use crate::disc_units::{DiscUnits, FORCE, in_units_of_study};
 use crate::outcome::Presented;
-use crate::outcome::disc_units::{DiscUnits, FORCE, in_units_of_study};
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc::motion::DiscSimulation;
@@ -48,7 +49,7 @@ impl Presented<DiscSetup> for DiscSimulation {
 
     fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
         // The system of a disc has the friction of its dither: without it, it is no disc without dither.
-        let figure = self.motion.figure_with(&self.system, false)?;
+        let figure = figure_with(&self.motion, &self.system, false)?;
         Some(figure.map(|figure| picture::disc::of_disc(figure, study)))
     }
 }

@@ -9,10 +9,11 @@ use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::input::Inputs;
+use crate::map::{Extreme, FinishedMap};
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::map::{Extreme, FinishedMap};
-use crate::sweep::{Grid, Status, VariableArrays};
+use crate::status::Status;
+use crate::sweep::{Grid, VariableArrays};
 use crate::words::plural;
 
 impl Outcome for FinishedMap {

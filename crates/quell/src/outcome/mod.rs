@@ -22,7 +22,6 @@ mod decay;
 mod describing;
 mod design;
 mod disc_motion;
-pub(crate) mod disc_units;
 mod estimates;
 mod fit;
 mod friction;

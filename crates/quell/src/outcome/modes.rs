@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::disc_units::{dataset_in_units, in_units_of_study};
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
+use crate::disc_units::{dataset_in_units, in_units_of_study};
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc::modes::Modes;

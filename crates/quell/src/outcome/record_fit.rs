@@ -41,7 +41,7 @@ impl Outcome for RecordFit {
             .plain("file", self.record.path().display().to_string())
             .plain("columns", self.record.columns.to_vec())
             .plain("recorded_quantity", self.record.quantity.name());
-        match self.shift_counts_from() {
+        match shift_counts_from(self) {
             Some(words) => fields.plain("shift_from", words),
             None => fields
                 .unknown("shift_from", "the shift is not free: the record begins with the run"),
@@ -87,7 +87,7 @@ impl Outcome for RecordFit {
 
     fn table(&self) -> String {
         let mut text = rows(&self.named, |_| true);
-        if let Some(words) = self.shift_counts_from() {
+        if let Some(words) = shift_counts_from(self) {
             let _ = writeln!(text, "  record.shift counts from {words}");
         }
         let (numbers, uncertainty) = self.fragments();
@@ -119,15 +119,13 @@ impl Outcome for RecordFit {
     }
 }
 
-impl RecordFit {
-    /// Where a free shift counts from.
-    fn shift_counts_from(&self) -> Option<&'static str> {
-        self.free.contains(&FreeNumber::Shift).then_some(if self.from_highest {
-            "the highest displacement after settling"
-        } else {
-            "the end of the settling time"
-        })
-    }
+/// Where a free shift counts from.
+fn shift_counts_from(done: &RecordFit) -> Option<&'static str> {
+    done.free.contains(&FreeNumber::Shift).then_some(if done.from_highest {
+        "the highest displacement after settling"
+    } else {
+        "the end of the settling time"
+    })
 }
 
 fn sentence(done: &RecordFit) -> String {

@@ -65,35 +65,33 @@ impl Presented<SystemSetup> for Simulation {
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        self.figure_with(study, true)
+        figure_with(self, study, true)
     }
 }
 
-impl Simulation {
-    /// The picture, with the motion from the same start without dither or not.
-    pub(crate) fn figure_with(
-        &self,
-        study: &SystemStudy,
-        undithered: bool,
-    ) -> Option<Result<Figure, Failure>> {
-        let is_whole = self.request.undithered == undithered && self.request.times.is_none();
-        if let (Some(samples), true) = (&self.samples, is_whole) {
-            return Some(Ok(picture::simulate(study, self, samples)));
-        }
-        let request = MotionRequest {
-            until: Some(self.end.time),
-            samples: true,
-            undithered,
-            times: None,
-            ..self.request.clone()
-        };
-        let done = match run(study, &request) {
-            Ok(done) => done,
-            Err(failure) => return Some(Err(failure)),
-        };
-        let samples = done.samples.as_ref()?;
-        Some(Ok(picture::simulate(study, &done, samples)))
+/// The picture, with the motion from the same start without dither or not.
+pub(super) fn figure_with(
+    motion: &Simulation,
+    study: &SystemStudy,
+    undithered: bool,
+) -> Option<Result<Figure, Failure>> {
+    let is_whole = motion.request.undithered == undithered && motion.request.times.is_none();
+    if let (Some(samples), true) = (&motion.samples, is_whole) {
+        return Some(Ok(picture::simulate(study, motion, samples)));
     }
+    let request = MotionRequest {
+        until: Some(motion.end.time),
+        samples: true,
+        undithered,
+        times: None,
+        ..motion.request.clone()
+    };
+    let done = match run(study, &request) {
+        Ok(done) => done,
+        Err(failure) => return Some(Err(failure)),
+    };
+    let samples = done.samples.as_ref()?;
+    Some(Ok(picture::simulate(study, &done, samples)))
 }
 
 /// Every event.

@@ -8,10 +8,10 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::disc_units::in_units_of_study;
 use super::system::{ListedMotion, motions};
 use super::table::{TextTable, figure, in_hertz, in_rpm};
 use crate::complaint::Failure;
+use crate::disc_units::in_units_of_study;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc;

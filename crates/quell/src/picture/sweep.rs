@@ -11,15 +11,16 @@ use super::caption::{VariedNumber, caption_of, with_varied};
 use super::map::{self, MapAxis, MapKind, MappedQuantity};
 use super::undrawable;
 use crate::complaint::Failure;
-use crate::outcome::disc_units::DiscUnits;
+use crate::disc_units::DiscUnits;
+use crate::map::{FinishedMap, amplitude_and_other, boundaries_at};
 use crate::plot::{
     Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotRole, Points,
     Polyline, Size, Spread,
 };
-use crate::run::map::{FinishedMap, amplitude_and_other, boundaries_at};
 use crate::run::thresholds::curves::{self, CurvesRequest};
+use crate::status::Status;
 use crate::study::{DiscStudy, Study};
-use crate::sweep::{Grid, GridAxis, Status, Variable, VariableArrays, VariableKind};
+use crate::sweep::{Grid, GridAxis, Variable, VariableArrays, VariableKind};
 
 /// What a growth rate of one ω_ref is in the units in which a disc is answered.
 fn one_growth(study: &Study) -> f64 {

@@ -26,9 +26,9 @@ use serde_json::Value as Json;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::output::Output;
-use crate::run::sketch;
+use crate::picture::sketch::sketch;
+use crate::running::Progress;
 use crate::study::{Kind, Study};
-use crate::sweep::Progress;
 use crate::verbs::verbs;
 
 pub use parts::StudyReport;
@@ -102,7 +102,7 @@ pub fn run_with_progress(
     unexamined.extend(limits::of(study, &answers));
     Ok(StudyReport {
         question: question(study),
-        sketch: sketch::run(study, Some(SKETCH_WIDTH_MM))?.sketch,
+        sketch: sketch(study, Some(SKETCH_WIDTH_MM))?,
         check: verbs.check()?,
         study: study.clone(),
         answers,

@@ -12,8 +12,8 @@ use crate::run::response::ResponseRequest;
 use crate::run::system::start::{StateNumbers, start_in_words};
 use crate::run::thresholds::{ThresholdsRequest, window_of};
 use crate::run::varied::key_of;
+use crate::running::Running;
 use crate::study::{Study, SystemStudy};
-use crate::sweep::Running;
 use crate::verbs::{Reply, Verbs};
 use crate::words::digits;
 

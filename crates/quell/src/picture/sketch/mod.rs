@@ -8,6 +8,8 @@ mod disc_load;
 mod symbols;
 mod system;
 
+use serde_json::{Value as Json, json};
+
 use super::PictureWidth;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::output::Output;
@@ -27,12 +29,24 @@ pub fn width(text: &str) -> Result<f64, Box<Complaint>> {
     PictureWidth::parse_between(text, "--width", WIDTHS_MM).map(PictureWidth::millimetres)
 }
 
-/// The sketch of a study on a sheet of this width (mm).
+/// The sketch of a study of any kind on a sheet of this width (mm) [default: [`DEFAULT_WIDTH_MM`]].
 ///
 /// # Errors
 /// A width outside [`WIDTHS_MM`].
-pub fn sketch(study: &Study, width_mm: f64) -> Result<Sketch, Failure> {
+///
+/// ```
+/// use quell::Study;
+/// use quell::picture::sketch::sketch;
+///
+/// let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n\
+///     [friction]\nlaw = \"coulomb\"\ncoefficient = 0.4\n";
+/// let study = Study::parse(text, &[])?;
+/// assert!(sketch(&study, Some(85.0))?.to_svg().contains("moving belt"));
+/// # Ok::<(), quell::Failure>(())
+/// ```
+pub fn sketch(study: &Study, width_mm: Option<f64>) -> Result<Sketch, Failure> {
     let (least, most) = WIDTHS_MM;
+    let width_mm = width_mm.unwrap_or(DEFAULT_WIDTH_MM);
     if !(least..=most).contains(&width_mm) {
         let allowed = format!("a width from {least} to {most} mm");
         let origin = Origin::Argument("--width");
@@ -48,6 +62,24 @@ pub fn sketch(study: &Study, width_mm: f64) -> Result<Sketch, Failure> {
     let names = sheet.parts.iter().map(|part| part.name.as_str());
     sheet.description = names.filter(|name| !name.is_empty()).collect::<Vec<_>>().join("; ");
     Ok(sheet)
+}
+
+/// A sketch as JSON: the size of the sheet, the parts with their labels, and the key.
+pub fn json(sketch: &Sketch) -> Json {
+    let parts = sketch.parts.iter().filter(|part| !part.name.is_empty()).map(|part| {
+        let labels: Vec<&str> = part.labels.iter().map(|label| label.text.as_str()).collect();
+        json!({ "kind": part.class, "name": part.name, "labels": labels })
+    });
+    let key = sketch.key.iter().map(|entry| json!({ "head": entry.head, "items": entry.items }));
+    json!({
+        "ok": true,
+        "title": sketch.title,
+        "width_mm": sketch.width_mm,
+        "height_mm": sketch.height_mm(),
+        "text_size_pt": sketch.text_size(),
+        "parts": parts.collect::<Vec<_>>(),
+        "key": key.collect::<Vec<_>>(),
+    })
 }
 
 /// The contacts and dithers of a system with their values, as in the key of its sketch.

@@ -1,0 +1,285 @@
+//! The kinds of study whose numbers can be uncertain, and the judges of one sample.
+
+use quell_design::least_dither::averaged_quiet;
+use quell_dynamics::attractor::end_of_run;
+use quell_linear::averaging::{AveragedVerdict, Averaging, criterion};
+use quell_linear::growth::{Growth, Verdict, of_criterion};
+use quell_model::disc::Disc;
+use quell_model::units::Quantity;
+use quell_model::{Dither, Input, OneMass, System};
+
+use super::ProbabilityStart;
+use crate::complaint::{Complaint, Failure};
+use crate::contact_state::refused_where_averaged;
+use crate::disc_units::DiscUnits;
+use crate::fields::Fields;
+use crate::run::protocol::Protocol;
+use crate::run::quench_numbers::least_quiet;
+use crate::run::sliding_growth::{SlidingGrowth, growth_of};
+use crate::run::stability::FAST;
+use crate::run::system::attractor::local_verdict;
+use crate::run::system::{has_equations, in_units};
+use crate::status::Status;
+use crate::study::{DiscStudy, ParameterId, SystemStudy, UnitSystem};
+use crate::words::digits;
+
+/// A growth rate with its verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JudgedGrowth {
+    /// The growth rate.
+    pub rate: f64,
+    /// Whether small motions grow, or why that is unknown.
+    pub vibrates: Result<bool, String>,
+}
+
+impl JudgedGrowth {
+    fn of(growth: Growth) -> Self {
+        let vibrates = match growth.verdict() {
+            Verdict::Unstable => Ok(true),
+            Verdict::Stable => Ok(false),
+            Verdict::Undecided => Err(Status::WithinError.about().to_owned()),
+        };
+        Self { rate: growth.rate, vibrates }
+    }
+}
+
+/// The growth of small motions of one sample, by averaging under dither.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AveragedGrowth {
+    /// With the response of the structure to the dither.
+    pub growth: Result<JudgedGrowth, String>,
+    /// Of one mass under dither in the limit R → ∞.
+    pub limit: Option<Result<JudgedGrowth, String>>,
+    /// Whether slip leaves the range of a friction law.
+    pub beyond_range: bool,
+    /// Whether the fast motion opens a contact.
+    pub opens: bool,
+    /// Whether a dither of one mass is hardly fast, so that averaging may be wrong.
+    pub hardly_fast: bool,
+}
+
+impl AveragedGrowth {
+    fn of(growth: Result<JudgedGrowth, String>) -> Self {
+        Self { growth, limit: None, beyond_range: false, opens: false, hardly_fast: false }
+    }
+}
+
+/// A study whose numbers can be uncertain.
+pub trait SampledKind {
+    /// What the study describes.
+    type Sampled: Sync;
+
+    /// Whether samples can be judged from this start.
+    ///
+    /// # Errors
+    /// A complaint.
+    fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure>;
+
+    /// What the study describes with these numbers.
+    ///
+    /// # Errors
+    /// Why it is not valid.
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<Self::Sampled, String>;
+
+    /// The growth of its small motions, by averaging under dither.
+    fn averaged_growth(&self, sampled: &Self::Sampled) -> AveragedGrowth;
+
+    /// The least amplitude of its first dither that is quiet, by averaging with the response to the dither or exactly: 0 where it is
+    /// quiet without, infinite where no amplitude is.
+    ///
+    /// # Errors
+    /// Why that is unknown.
+    fn threshold(&self, sampled: &Self::Sampled, exactly: bool) -> Result<f64, String>;
+
+    /// Whether it vibrates, by its exact motion.
+    ///
+    /// # Errors
+    /// Why that is unknown.
+    fn vibrates(&self, sampled: &Self::Sampled, start: ProbabilityStart) -> Result<bool, String>;
+
+    /// An empty answer in the units of the study.
+    fn fields(&self) -> Fields;
+
+    /// A force of the equations with its unit.
+    fn force_in_words(&self, force: f64) -> String;
+
+    /// The unit of growth rates in sentences, pictures and datasets, and how many of them one of the equations is.
+    fn unit_of_rates(&self) -> (&'static str, f64);
+
+    /// Adds a growth rate to an answer.
+    fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, String>) {
+        fields.rate(name, rate);
+    }
+}
+
+/// Why a study without dither has no threshold.
+const NO_DITHER: &str = "the study has no dither";
+
+/// Growth of small motions of one mass in the limit R → ∞; its verdict is that of the criterion.
+fn limit_growth(mass: &OneMass) -> Result<JudgedGrowth, String> {
+    let found = criterion(mass.belt(), Averaging::Limit).map_err(|why| why.to_string())?;
+    let vibrates = match found.verdict {
+        AveragedVerdict::Unstable => Ok(true),
+        AveragedVerdict::Stable => Ok(false),
+        AveragedVerdict::Undecided { .. } => Err(Status::WithinError.about().to_owned()),
+    };
+    Ok(JudgedGrowth { rate: mass.rate() * of_criterion(found.value), vibrates })
+}
+
+impl SampledKind for SystemStudy {
+    type Sampled = System;
+
+    fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure> {
+        if start != ProbabilityStart::Averaged {
+            return has_equations(self, "orbit");
+        }
+        has_equations(self, "probability")?;
+        if self.system().is_dithered() {
+            refused_where_averaged(self, "probability")?;
+        }
+        Ok(())
+    }
+
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<System, String> {
+        self.model().at(numbers).map_err(|why| why.to_string())
+    }
+
+    fn averaged_growth(&self, system: &System) -> AveragedGrowth {
+        let mass = system.one_averaged_mass().filter(|_| system.has_waves());
+        let is_slow = |dither: &Dither| dither.lowest_ratio() < FAST;
+        let (growth, beyond_range, opens) = match SlidingGrowth::averaged(system) {
+            Ok(found) => (
+                Ok(JudgedGrowth::of(found.growth)),
+                found.doubts.contains(&Status::BeyondRange),
+                found.doubts.contains(&Status::Opens),
+            ),
+            Err(status) => (Err(status.about().to_owned()), false, false),
+        };
+        AveragedGrowth {
+            growth,
+            limit: mass.as_ref().map(limit_growth),
+            beyond_range,
+            opens,
+            hardly_fast: mass.is_some_and(|mass| mass.belt().dithers().iter().any(is_slow)),
+        }
+    }
+
+    fn threshold(&self, system: &System, exactly: bool) -> Result<f64, String> {
+        let acts = |input: &Input| !input.profile.waves().is_empty();
+        let input = system.inputs.iter().position(acts).ok_or(NO_DITHER)?;
+        if exactly {
+            return least_quiet(system, input).map_err(|why| why.about().to_owned());
+        }
+        let quiet = averaged_quiet(system, input, (0.0, f64::INFINITY));
+        Ok(quiet.map_err(|why| why.to_string())?.least_from(0.0).unwrap_or(f64::INFINITY))
+    }
+
+    fn vibrates(&self, system: &System, start: ProbabilityStart) -> Result<bool, String> {
+        let protocol = match start {
+            ProbabilityStart::Averaged | ProbabilityStart::Local => {
+                return match local_verdict(system)? {
+                    "stable" => Ok(false),
+                    "unstable" => Ok(true),
+                    verdict => Err(format!("the base response is {verdict}")),
+                };
+            }
+            ProbabilityStart::Rest => Protocol::Rest,
+            ProbabilityStart::Squeal => Protocol::Squeal,
+        };
+        let state = match protocol.state(self, system) {
+            Ok(state) => state,
+            // Steady sliding is stable, and no run from the usual starts vibrates: nothing to quench.
+            Err(_) if start == ProbabilityStart::Squeal && is_quiet_without_dither(system) => {
+                return Ok(false);
+            }
+            Err(why) => return Err(said(&why)),
+        };
+        let end = end_of_run(system, &self.observe(), &state).map_err(|why| why.to_string())?;
+        Ok(!end.attractor.quiet)
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::in_units(self.units())
+    }
+
+    fn force_in_words(&self, force: f64) -> String {
+        in_units(self.units(), Quantity::Force, force)
+    }
+
+    fn unit_of_rates(&self) -> (&'static str, f64) {
+        (if self.units() == UnitSystem::None { "1" } else { "1/s" }, 1.0)
+    }
+}
+
+/// Whether steady sliding without dither is stable.
+fn is_quiet_without_dither(system: &System) -> bool {
+    local_verdict(&system.undithered()).is_ok_and(|verdict| verdict == "stable")
+}
+
+/// Why a start does not exist.
+fn said(why: &Failure) -> String {
+    match why {
+        Failure::Wrong(complaints) => complaints
+            .iter()
+            .map(|complaint| complaint.allowed.clone())
+            .collect::<Vec<_>>()
+            .join("; "),
+        Failure::Failed { why, .. } => why.clone(),
+    }
+}
+
+impl SampledKind for DiscStudy {
+    type Sampled = Disc;
+
+    fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure> {
+        match start {
+            ProbabilityStart::Averaged | ProbabilityStart::Local => Ok(()),
+            ProbabilityStart::Rest | ProbabilityStart::Squeal => {
+                let allowed = "averaged or local of a disc, both by its exact exponents: its motions are linear";
+                Err(Complaint::option("--start", start.name(), allowed).into())
+            }
+        }
+    }
+
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<Disc, String> {
+        let setup = self.setup_at(numbers).map_err(|why| why.to_string())?;
+        Ok(setup.disc().clone())
+    }
+
+    fn averaged_growth(&self, disc: &Disc) -> AveragedGrowth {
+        // A sample has an ω_ref of its own.
+        let scales = disc.scales(0).filter(|_| DiscUnits::of(self).is_some());
+        let one = scales.map_or(1.0, |scales| scales.angular_frequency());
+        let growth = growth_of(disc, self.parts()).map(JudgedGrowth::of);
+        let growth = growth.map(|growth| JudgedGrowth { rate: one * growth.rate, ..growth });
+        AveragedGrowth::of(growth.map_err(|status| status.about().to_owned()))
+    }
+
+    fn threshold(&self, _: &Disc, _: bool) -> Result<f64, String> {
+        Err("thresholds are those of belts and systems: `thresholds` has those of a disc"
+            .to_owned())
+    }
+
+    fn vibrates(&self, disc: &Disc, _: ProbabilityStart) -> Result<bool, String> {
+        self.averaged_growth(disc).growth?.vibrates
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::new()
+    }
+
+    fn force_in_words(&self, force: f64) -> String {
+        digits(force)
+    }
+
+    fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, String>) {
+        match rate {
+            Ok(rate) => fields.measured(name, self.unit_of_rates().0, rate),
+            Err(why) => fields.unknown(name, why),
+        };
+    }
+
+    fn unit_of_rates(&self) -> (&'static str, f64) {
+        (if DiscUnits::of(self).is_some() { "1/s" } else { "ω_ref" }, 1.0)
+    }
+}

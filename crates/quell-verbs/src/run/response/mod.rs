@@ -1,0 +1,361 @@
+//! `response`: the steady response of the observed row, the effect of the dither, and the cost of every dither.
+
+mod answer;
+mod band;
+
+use std::f64::consts::TAU;
+
+use quell_dynamics::attractor::MotionKind;
+use quell_dynamics::motion::InputCost;
+use quell_dynamics::response::{
+    Effect, ResponsePlan, ResponseRefused, SteadyResponse, SystemEnding, Uncertain, Undefined,
+    respond, vibration_frequency,
+};
+use quell_model::System;
+use quell_model::units::Quantity;
+
+use super::actuator::beyond_actuator;
+use super::effect_words::{EffectWords, percent, residual_in_words};
+use super::system::of_runs::{beyond_laws, failed_run, of_engine};
+use super::system::periods::slowest_period;
+use super::system::start::{duration, start_in_words, start_of};
+use super::system::{failed, frequency_in_words, has_equations, in_units};
+use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::study::{Solver, SystemStudy};
+use crate::words::{digits, listed};
+
+pub use band::InBand;
+
+/// Periods of the slowest oscillation that are discarded before the record.
+pub const SETTLE_PERIODS: f64 = 200.0;
+
+/// Periods of the slowest oscillation in the record.
+pub const RECORD_PERIODS: f64 = 60.0;
+
+/// What is asked of `response`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ResponseRequest {
+    /// Time discarded before the record; `None` for that of the study, or [`SETTLE_PERIODS`].
+    pub settle: Option<f64>,
+    /// Length of the record; `None` for that of the study, or [`RECORD_PERIODS`].
+    pub record: Option<f64>,
+    /// Number of runs under noise, each with another seed.
+    pub seeds: Option<usize>,
+    /// Two times of a run between which it is measured, instead of a steady response.
+    pub window: Option<(f64, f64)>,
+}
+
+/// The options of `response` as they are given.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ResponseTexts<'t> {
+    /// Time before the record.
+    pub settle: Option<&'t str>,
+    /// Length of the record.
+    pub record: Option<&'t str>,
+    /// The two times of a window.
+    pub window: Option<(&'t str, &'t str)>,
+}
+
+impl ResponseTexts<'_> {
+    /// The request, in the units of the system whose response it is.
+    ///
+    /// # Errors
+    /// A complaint about every option that is wrong.
+    pub fn read(&self, study: &SystemStudy) -> Result<ResponseRequest, Complaints> {
+        let mut wrong: Vec<Complaint> = Vec::new();
+        let mut time = |option, text: Option<&str>| {
+            let read = duration(study, text?, option);
+            read.map_err(|complaint| wrong.push(*complaint)).ok()
+        };
+        let settle = time("--settle", self.settle);
+        let record = time("--record", self.record);
+        let ends = self
+            .window
+            .map(|(from, to)| [time("--window", Some(from)), time("--window", Some(to))]);
+        let window = ends.and_then(|[from, to]| from.zip(to));
+        if wrong.is_empty() {
+            Ok(ResponseRequest { settle, record, window, seeds: None })
+        } else {
+            Err(wrong.into())
+        }
+    }
+}
+
+/// A steady response.
+#[derive(Clone, Debug)]
+pub struct MeasuredResponse {
+    /// How it was measured.
+    pub plan: ResponsePlan,
+    /// The response.
+    pub response: SteadyResponse,
+}
+
+/// How the response of a study is measured.
+///
+/// # Errors
+/// A complaint where nothing oscillates and a time is not given.
+pub fn plan_of(study: &SystemStudy, request: ResponseRequest) -> Result<ResponsePlan, Failure> {
+    let own = study.record();
+    let usual = usual_record(study.system());
+    let time = |given: Option<f64>, usual: Option<f64>, periods: f64| match given.or(usual) {
+        Some(time) => Ok(time),
+        None => Ok::<f64, Failure>(periods * slowest_period(study, "--settle")?),
+    };
+    let (settle, length) = usual.unzip();
+    Ok(ResponsePlan {
+        row: study.observe(),
+        settle: time(request.settle.or(own.settle), settle, SETTLE_PERIODS)?,
+        length: time(request.record.or(own.length), length, RECORD_PERIODS)?,
+        tolerance: study.tolerance(),
+    })
+}
+
+/// The time that is discarded and the length of the record of one coordinate on a spring, those of a belt however it is written; `None` of
+/// other structures, whose slowest motion decides.
+fn usual_record(system: &System) -> Option<(f64, f64)> {
+    let frequency = system.structure.natural_frequency()?;
+    let Solver { settle, record_periods, .. } = Solver::default();
+    Some((settle / frequency, TAU * f64::from(record_periods) / frequency))
+}
+
+/// Why a response could not be measured.
+pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRefused) -> Failure {
+    let counts = study.document().pointer("/solver/record_periods").is_some();
+    let record = |bound: &str, limit: f64, why: &str| match study.record().length {
+        // The study counts slow periods.
+        Some(length) if counts && length == plan.length => {
+            let slow = study.system().one_averaged_mass().map_or(1.0, |mass| TAU / mass.rate());
+            let allowed = format!("{bound} {}, {why}", digits(limit / slow));
+            let periods = digits(length / slow);
+            Complaint::new(Fault::Value, "solver.record_periods", Origin::Whole, periods, allowed)
+                .into()
+        }
+        _ => {
+            let limit = in_units(study.units(), Quantity::Time, limit);
+            let allowed = format!("a record of {bound} {limit}, {why}");
+            Complaint::option("--record", plan.length, allowed).into()
+        }
+    };
+    match why {
+        ResponseRefused::Immobile(why) => failed("response", why),
+        ResponseRefused::Stopped(stopped) => failed_run("response", study.system(), &stopped),
+        ResponseRefused::TooLong { most } => record(
+            "at most",
+            most,
+            &format!(
+                "with all the samples that are kept (by default it is {RECORD_PERIODS} periods of the slowest motion)"
+            ),
+        ),
+        ResponseRefused::TooShort { least } => {
+            record("more than", least, "of which a line lies in the band of slow vibration")
+        }
+    }
+}
+
+/// Measures the steady response of a study.
+///
+/// # Errors
+/// A complaint about the start or the times; [`Failure::Failed`] where the motion cannot be computed or the engine stops.
+pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<MeasuredResponse, Failure> {
+    has_equations(study, "response")?;
+    let (start, plan) = (start_of(study)?, plan_of(study, request)?);
+    let response = respond(study.system(), &start, &plan);
+    let response = response.map_err(|why| refused(study, &plan, why))?;
+    Ok(MeasuredResponse { plan, response })
+}
+
+/// Periods of the vibration below which a record is short: the main lobe of its window, four lines wide, then reaches the mean.
+const FEW_PERIODS: f64 = 4.0;
+
+/// Relative change of the mean friction that is rounding.
+const UNCHANGED: f64 = 1e-9;
+
+/// Why E is undefined.
+pub(crate) fn undefined(why: Undefined) -> String {
+    match why {
+        Undefined::UnditheredUnknown => {
+            "the vibration without dither still changes within the record, so there is no steady vibration to compare with: \
+             settle for longer"
+                .to_owned()
+        }
+        Undefined::UnditheredUnstable
+        | Undefined::UnditheredDrifts
+        | Undefined::UnditheredStill => why.to_string(),
+        Undefined::UnditheredSettles | Undefined::UnditheredAtRest => {
+            "without dither the motion settles without vibration from this start, so there is no vibration to compare with"
+                .to_owned()
+        }
+    }
+}
+
+/// Why an effect is unknown.
+fn uncertain(why: Uncertain) -> String {
+    match why {
+        Uncertain::Undithered(why) => undefined(why),
+        why => why.to_string(),
+    }
+}
+
+impl MeasuredResponse {
+    /// The effect of the dither and its cost.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let response = &self.response;
+        let (units, from) = (study.units(), start_in_words(study, &Vec::new()));
+        let amplitude = in_units(units, Quantity::Displacement, response.dithered.lines.whole);
+        if !response.has_dither() {
+            return match response.residual_vibration {
+                Ok(_) => format!(
+                    "Started {from}, without dither, the system keeps vibrating with an amplitude of {amplitude}."
+                ),
+                Err(Undefined::UnditheredSettles) => {
+                    format!("Started {from}, the motion settles without vibration.")
+                }
+                Err(why) => format!("Started {from}, {}.", undefined(why)),
+            };
+        }
+        let band = frequency_in_words(units, response.band_end);
+        let what = match response.effect {
+            Effect::Unknown(why) => {
+                format!("the effect of this dither is unknown: {}", uncertain(why))
+            }
+            effect => EffectWords {
+                body: "the system",
+                band: &band,
+                amplitude: &amplitude,
+                residual: &residual_in_words(response.residual_vibration.ok(), &band),
+            }
+            .sentence(effect),
+        };
+        let levels = self.band_in_words(study);
+        format!("Started {from}, {what}.{levels}{}", self.cost(study))
+    }
+
+    /// The cost of every dither in a sentence of its own.
+    fn cost(&self, study: &SystemStudy) -> String {
+        let units = study.units();
+        let losses = study.system().contacts.iter().zip(0..).filter_map(|(contact, index)| {
+            let loss = self.friction_loss(index).ok()?;
+            if loss.abs() < UNCHANGED {
+                return Some(format!(
+                    "leaves the mean friction of contact {} at that of steady sliding",
+                    contact.name
+                ));
+            }
+            let change = if loss < 0.0 { "raises" } else { "lowers" };
+            let share = percent(loss.abs());
+            Some(format!(
+                "{change} the mean friction of contact {} by {share} relative to steady sliding",
+                contact.name
+            ))
+        });
+        let several = self.response.dithered.inputs.len() > 1;
+        let inputs = self.response.dithered.inputs.iter().enumerate();
+        let costs = inputs.filter_map(|(index, cost)| {
+            let InputCost { power, stroke, in_series } = cost.ok()?;
+            let does = if power < 0.0 { "returns" } else { "consumes" };
+            let power = in_units(units, Quantity::Power, power.abs());
+            let stroke = in_units(units, Quantity::Displacement, stroke);
+            let of = if several { format!(" at dither[{index}]") } else { String::new() };
+            Some(format!(
+                "{does} a mean power of {power} while the point on which it acts moves by {stroke} peak to peak{of}{}",
+                in_series.and_then(Result::ok).map_or(String::new(), |cost| format!(
+                    ", and an actuator in series with the spring of the contact delivers {} with a stroke of {}",
+                    in_units(units, Quantity::Power, cost.power),
+                    in_units(units, Quantity::Displacement, cost.stroke)
+                ))
+            ))
+        });
+        let parts: Vec<String> = losses.chain(costs).collect();
+        if parts.is_empty() { String::new() } else { format!(" It {}.", listed(&parts)) }
+    }
+
+    /// Relative loss of the mean friction of a contact against steady sliding without dither; negative for a gain.
+    fn friction_loss(&self, contact: usize) -> Result<f64, String> {
+        let steady = self.steady_friction(contact)?;
+        if steady == 0.0 {
+            return Err("there is no friction in steady sliding to compare with".to_owned());
+        }
+        Ok(1.0 - self.response.dithered.contacts[contact].friction / steady)
+    }
+
+    fn steady_friction(&self, contact: usize) -> Result<f64, String> {
+        let steady = self.response.steady_friction.as_ref().map(|forces| forces[contact]);
+        steady.ok_or_else(|| "the system has no steady sliding to compare with".to_owned())
+    }
+
+    /// Warnings about the result.
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let response = &self.response;
+        let mut warnings = study.warnings().to_vec();
+        warnings.extend(beyond_laws(study, |contact| response.largest_slip(contact)));
+        warnings.extend(of_engine(study.system(), &response.dithered.end));
+        warnings.extend(beyond_actuator(study));
+        let settle = in_units(study.units(), Quantity::Time, self.plan.settle);
+        let runs = [
+            ("dithered ", response.dithered_is_settled(), &response.dithered),
+            ("undithered ", response.undithered_is_settled(), &response.undithered),
+        ];
+        // Without dither both are one run.
+        let runs = if response.has_dither() { &runs[..] } else { &runs[1..] };
+        for (which, settled, record) in runs {
+            let which = if response.has_dither() { which } else { "" };
+            match record.ending {
+                SystemEnding::Drift => warnings.push(format!(
+                    "the {which}response drifts: over the record the observed motion moves on by more than it vibrates, so that \
+                     amplitudes and strokes grow with the record"
+                )),
+                SystemEnding::UnstableSliding => warnings.push(format!(
+                    "the {which}run stays in steady sliding, which is unstable, because its start does not disturb it"
+                )),
+                _ if !settled => warnings.push(format!(
+                    "the {which}response has not settled after t = {settle}: the amplitudes of the two halves of the record \
+                     differ; raise --settle or --record"
+                )),
+                _ => {}
+            }
+        }
+        warnings.extend(self.longer_than_record(study));
+        warnings.extend(self.means_of_record(study));
+        warnings.extend(self.few_periods(study));
+        warnings
+    }
+
+    /// A warning about means over a record of a motion that does not repeat itself: where the record is cut changes them.
+    fn means_of_record(&self, study: &SystemStudy) -> Option<String> {
+        let found = self.response.dithered.ending.motion()?;
+        let repeats = self.response.dithered.ending.period().is_some();
+        let length = in_units(study.units(), Quantity::Time, self.plan.length);
+        (!repeats && found.kind != MotionKind::Rest).then(|| {
+            format!(
+                "the motion does not repeat itself: mean friction, powers and strokes are those of a record of {length}, and change with its \
+                 ends; a longer --record determines them better"
+            )
+        })
+    }
+
+    /// A warning about a record that is short against the vibration, whose lines its window does not separate.
+    fn few_periods(&self, study: &SystemStudy) -> Option<String> {
+        let slow = TAU / vibration_frequency(study.system())?;
+        let is_short = self.plan.length < FEW_PERIODS * slow;
+        let [length, slow] =
+            [self.plan.length, slow].map(|time| in_units(study.units(), Quantity::Time, time));
+        is_short.then(|| {
+            format!(
+                "the record of {length} is short against a period of the slow vibration, {slow}: amplitudes and E depend on its length; raise \
+                 --record"
+            )
+        })
+    }
+
+    /// A warning about a free vibration that takes longer than its record, such as one with long sticks on a slow surface.
+    fn longer_than_record(&self, study: &SystemStudy) -> Option<String> {
+        let ending = &self.response.undithered.ending;
+        let period = ending.period().filter(|period| *period > self.plan.length)?;
+        let [period, length] =
+            [period, self.plan.length].map(|time| in_units(study.units(), Quantity::Time, time));
+        Some(format!(
+            "the vibration without dither repeats after {period}, but its record lasts {length}: M₀ and E are those of a part of it; \
+             raise --record"
+        ))
+    }
+}
