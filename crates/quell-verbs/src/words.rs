@@ -1,8 +1,75 @@
-//! Numbers and starts as text.
+//! Numbers, quantities and lists as text.
 
-/// Six significant digits, without trailing zeros.
+/// Units with which keys end.
+const UNITS_OF_KEYS: [&str; 21] = [
+    "n_s_per_m",
+    "n_per_m",
+    "n_per_a",
+    "kg_per_m3",
+    "m_per_s",
+    "km_per_h",
+    "s_per_m",
+    "per_m",
+    "rpm",
+    "deg",
+    "kg",
+    "hz",
+    "pa",
+    "n",
+    "m",
+    "s",
+    "w",
+    "f",
+    "h",
+    "v",
+    "a",
+];
+
+/// Four significant digits, without trailing zeros: numbers of sentences and warnings, which tables and JSON have with more.
 pub fn digits(value: f64) -> String {
+    quell_model::digits::digits(value, 4)
+}
+
+/// Six significant digits, without trailing zeros: numbers that a study gives, and those that are estimated with an error of their own.
+pub fn more_digits(value: f64) -> String {
     quell_model::digits::digits(value, 6)
+}
+
+/// The number of a study at a path in words: "dither amplitude", "belt velocity of contact guide", "amplitude of dither[1]".
+///
+/// ```
+/// use quell_verbs::words::quantity_at;
+///
+/// assert_eq!(quantity_at("dither.frequency_hz"), "dither frequency");
+/// assert_eq!(quantity_at("contact.pad.friction.static_coefficient"), "static coefficient of friction of contact pad");
+/// ```
+pub fn quantity_at(path: &str) -> String {
+    let mut places: Vec<&str> = path.split('.').collect();
+    let key = places.pop().unwrap_or_default();
+    // Names that the study gives itself.
+    if let Some(&("constants" | "parameters")) = places.last() {
+        return key.to_owned();
+    }
+    let key = without_unit(key).replace('_', " ");
+    match places.as_slice() {
+        [] | ["belt" | "system" | "disc"] => key,
+        ["dither"] => format!("dither {key}"),
+        ["contact", name] => format!("{key} of contact {name}"),
+        ["contact", name, table] => {
+            format!("{key} of {} of contact {name}", table.replace('_', " "))
+        }
+        ["disc", place] => format!("{key} of the {}", place.replace('_', " ")),
+        ["actuator"] if key == "file" => "measured force of the actuator".to_owned(),
+        ["actuator"] => format!("{key} of the actuator"),
+        places => format!("{key} of {}", places.join(" ").replace('_', " ")),
+    }
+}
+
+/// A key without the unit that it ends with.
+fn without_unit(key: &str) -> &str {
+    let mut bare =
+        UNITS_OF_KEYS.iter().filter_map(|unit| key.strip_suffix(unit)?.strip_suffix('_'));
+    bare.next().unwrap_or(key)
 }
 
 /// The ending of a noun after a count.

@@ -92,7 +92,7 @@ impl NamedEstimates {
                 Ok(error) if error > self.value(place).abs() => found.push(format!(
                     "{} = {} is not determined: its standard error {} exceeds it",
                     name(place),
-                    crate::words::digits(self.value(place)),
+                    crate::words::more_digits(self.value(place)),
                     quell_model::digits::digits(error, 2)
                 )),
                 // What the model does not explain is said about the whole fit.

@@ -28,6 +28,10 @@ impl Presented<SystemSetup> for ActuatorFound {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, study: &SystemStudy) -> String {
         table(self, study)
     }

@@ -28,6 +28,10 @@ impl Presented<SystemSetup> for Basins {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = format!("  {}\n", self.starts_in_words(study));
         match (&self.over, self.portraits.as_slice()) {

@@ -25,6 +25,10 @@ impl Presented<SystemSetup> for LeastDitherFound {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, _: &SystemStudy) -> String {
         table(self)
     }
@@ -49,6 +53,10 @@ impl Presented<DiscSetup> for LeastDitherFound {
 
     fn sentence(&self, study: &DiscStudy) -> Option<String> {
         Some(self.sentence(study))
+    }
+
+    fn notes(&self, study: &DiscStudy) -> Vec<String> {
+        self.notes(study)
     }
 
     fn table(&self, _: &DiscStudy) -> String {

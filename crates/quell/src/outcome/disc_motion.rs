@@ -24,6 +24,10 @@ impl Presented<DiscSetup> for DiscSimulation {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &DiscStudy) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, _: &DiscStudy) -> String {
         self.motion.table(&self.system)
     }

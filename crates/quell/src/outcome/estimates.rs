@@ -9,7 +9,7 @@ use quell_model::units::Quantity;
 
 use crate::fields::Fields;
 use crate::run::named_estimates::NamedEstimates;
-use crate::words::digits;
+use crate::words::{more_digits, quantity_at};
 
 /// The parameters as an object, those for which `shown` holds.
 pub(super) fn parameters(named: &NamedEstimates, shown: impl Fn(usize) -> bool) -> Fields {
@@ -66,14 +66,14 @@ pub(super) fn explained_in_words(named: &NamedEstimates) -> Option<String> {
     let share = named.estimates.explained?;
     let percent = 100.0 * share;
     // A share that is not 1 is not printed as 100 %.
-    let text = match digits(percent) {
+    let text = match more_digits(percent) {
         text if text == "100" && percent < 100.0 => "more than 99.9999".to_owned(),
         text => text.replacen('-', "−", 1),
     };
     Some(format!("{text} %"))
 }
 
-/// "damping_ratio = 0.01 ± 0.0002".
+/// "damping ratio 0.01 ± 0.0002".
 pub(super) fn in_words(named: &NamedEstimates, place: usize) -> String {
     let error = named.error(place).map_or_else(
         |_| String::new(),
@@ -84,7 +84,7 @@ pub(super) fn in_words(named: &NamedEstimates, place: usize) -> String {
         "1" => String::new(),
         unit => format!(" {unit}"),
     };
-    format!("{} = {}{error}{unit}", parameter.name, digits(named.value(place)))
+    format!("{} {}{error}{unit}", quantity_at(&parameter.name), more_digits(named.value(place)))
 }
 
 /// One row for each parameter.

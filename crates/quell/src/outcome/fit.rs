@@ -16,7 +16,7 @@ use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::fit::FrictionFit;
-use crate::words::{digits, listed, plural};
+use crate::words::{listed, more_digits, plural, quantity_at};
 
 /// Number of slip speeds of the curve.
 const CURVE: usize = 201;
@@ -65,8 +65,8 @@ fn unit(fit: &FrictionFit, quantity: Quantity) -> &'static str {
 /// A number with the unit of the file.
 fn in_unit(fit: &FrictionFit, quantity: Quantity, value: f64) -> String {
     match unit(fit, quantity) {
-        unit if fit.data.is_si() && unit != "1" => format!("{} {unit}", digits(value)),
-        _ => digits(value),
+        unit if fit.data.is_si() && unit != "1" => format!("{} {unit}", more_digits(value)),
+        _ => more_digits(value),
     }
 }
 
@@ -87,11 +87,11 @@ fn sentence(done: &FrictionFit) -> String {
                 |_| String::new(),
                 |error| format!(" ± {}", quell_model::digits::digits(error, 2)),
             );
-            let value = digits(fitted.value);
+            let value = more_digits(fitted.value);
             let unit = unit(done, quantity);
             let unit =
                 if done.data.is_si() && unit != "1" { format!(" {unit}") } else { String::new() };
-            format!("{} = {value}{error}{unit}", fitted.parameter.key())
+            format!("{} {value}{error}{unit}", quantity_at(fitted.parameter.key()))
         })
         .collect();
     let mut text = format!(
@@ -214,7 +214,7 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
         FitFinding::Uncertain { key, value, error } => format!(
             "{key} = {} is not determined: its standard error {} exceeds it. Fix it with --fix {key}=VALUE, or measure where \
              the curve depends on it",
-            digits(*value),
+            more_digits(*value),
             quell_model::digits::digits(*error, 2)
         ),
         FitFinding::WithoutError { key, why } => format!(

@@ -70,15 +70,21 @@ pub trait Outcome: Send + Sync {
     /// The numbers as text for people.
     fn table(&self) -> String;
 
+    /// What else a reader should know, one sentence each, of the second rank.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The title of the study, if the text begins with it.
     fn title(&self) -> Option<&str> {
         None
     }
 
-    /// The text for people: title, sentence and table.
+    /// The text for people: title, sentence, notes and table.
     fn text(&self) -> String {
         let lines = self.title().map(str::to_owned).into_iter().chain(self.sentence());
-        let mut text: String = lines.map(|line| line + "\n").collect();
+        let notes = self.notes().into_iter().map(|note| format!("  {note}"));
+        let mut text: String = lines.chain(notes).map(|line| line + "\n").collect();
         text += &self.table();
         text
     }
@@ -112,10 +118,12 @@ pub trait Outcome: Send + Sync {
     }
 }
 
-/// The fields of an outcome with its name as the second of them, `answer`: what the command line prints with `--json`, and Python's facts.
+/// The fields of an outcome with its name as the second of them, `answer`, and its notes after the sentence: what the command line prints with `--json`, and Python's facts.
 pub fn named(outcome: &dyn Outcome, mut fields: Json) -> Json {
     if let Json::Object(fields) = &mut fields {
         fields.shift_insert(1.min(fields.len()), "answer".to_owned(), outcome.name().into());
+        let after = fields.keys().position(|name| name == "sentence").unwrap_or(1) + 1;
+        fields.shift_insert(after.min(fields.len()), "notes".to_owned(), outcome.notes().into());
     }
     fields
 }
@@ -141,6 +149,12 @@ pub trait Presented<K>: Send + Sync {
 
     /// [`Outcome::table`].
     fn table(&self, study: &StudyOf<K>) -> String;
+
+    /// [`Outcome::notes`].
+    fn notes(&self, study: &StudyOf<K>) -> Vec<String> {
+        let _ = study;
+        Vec::new()
+    }
 
     /// [`Outcome::datasets`].
     fn datasets(&self, study: &StudyOf<K>) -> Vec<(&'static str, Dataset)> {
@@ -206,6 +220,10 @@ impl<K: StudyKind + Send + Sync, D: Presented<K>> Outcome for Answered<K, D> {
 
     fn table(&self) -> String {
         self.done.table(&self.study)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.done.notes(&self.study)
     }
 
     fn datasets(&self) -> Vec<(&'static str, Dataset)> {

@@ -29,6 +29,10 @@ impl Presented<SystemSetup> for PeriodicResponse {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, _: &SystemStudy) -> Vec<String> {
+        self.notes()
+    }
+
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
         if let Some(found) = &self.found {

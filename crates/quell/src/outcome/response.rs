@@ -33,6 +33,10 @@ impl Presented<SystemSetup> for MeasuredResponse {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, study: &SystemStudy) -> String {
         let with = |quantity: Quantity, value: f64| {
             let unit =

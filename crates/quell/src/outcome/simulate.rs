@@ -31,6 +31,10 @@ impl Presented<SystemSetup> for Simulation {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
         if self.request.events {

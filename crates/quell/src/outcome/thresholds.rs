@@ -28,6 +28,10 @@ impl Presented<SystemSetup> for Thresholds {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, study: &SystemStudy) -> String {
         let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
@@ -108,6 +112,10 @@ impl Presented<SystemSetup> for Curves {
 
     fn sentence(&self, study: &SystemStudy) -> Option<String> {
         Some(self.sentence(study))
+    }
+
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
     }
 
     fn table(&self, study: &SystemStudy) -> String {

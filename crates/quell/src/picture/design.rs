@@ -1,7 +1,6 @@
 //! The least dither: the amplitudes that are quiet over the second number that is chosen, or over the box of operating points.
 
 use super::caption::{caption, disc_caption};
-use super::system::name_of as name_of_path;
 use quell_design::least_dither::{DesignObjective, DesignPoint, LimitedQuantity};
 
 use crate::plot::{
@@ -13,11 +12,12 @@ use crate::study::UnitSystem;
 use crate::study::key_at;
 use crate::study::vocabulary::DocumentKind;
 use crate::study::{DiscStudy, SystemStudy};
+use crate::words::quantity_at;
 
 /// Required amplitudes over the other number that is chosen, or over the operating points.
 pub fn design(study: &SystemStudy, done: &LeastDitherFound) -> Figure {
     let axis = |path: &str| {
-        let axis = PlotAxis::new(name_of_path(path));
+        let axis = PlotAxis::new(quantity_at(path));
         match study.unit_of(path).filter(|unit| *unit != "1") {
             Some(unit) => axis.unit(unit),
             None => axis,

@@ -12,6 +12,7 @@ use crate::plot::{
 use crate::run::system::reach::Reaches;
 use crate::run::system::tracked::TrackedStability;
 use crate::study::{SystemStudy, UnitSystem};
+use crate::words::quantity_at;
 
 /// Largest share of the growth rates that is hidden below the axis: overdamped motions just beyond a jump decay arbitrarily fast.
 const HIDDEN: f64 = 0.15;
@@ -43,22 +44,8 @@ pub(super) fn axis_of(
 ) -> (PlotAxis, Ruler) {
     let ruler = Ruler::of_path(study, path, from.abs().max(to.abs()));
     // The unit of a key such as `amplitude_n` is that of the axis.
-    let unit = study.address(path).ok().and_then(|address| address.quantity?.si_unit());
-    let bare = unit.and_then(|(_, suffix)| path.strip_suffix(suffix)?.strip_suffix('_'));
-    let axis = ruler.axis(&name_of(bare.unwrap_or(path)), "");
+    let axis = ruler.axis(&quantity_at(path), "");
     (axis.between(ruler.place(from), ruler.place(to)), ruler)
-}
-
-/// The number at a path in words: "belt velocity of contact guide", "amplitude of dither[1]".
-pub(super) fn name_of(path: &str) -> String {
-    let mut parts = path.split('.').rev();
-    let key = parts.next().unwrap_or_default().replace('_', " ");
-    let places: Vec<&str> = parts.collect();
-    if places.is_empty() {
-        return key;
-    }
-    let place: Vec<&str> = places.into_iter().rev().collect();
-    format!("{key} of {}", place.join(" "))
 }
 
 /// Lower end of the axis of growth rates, where a few rates are far below all others.

@@ -14,7 +14,7 @@ use crate::run::design::StudyWithDesign;
 use crate::run::stability::FAR;
 use crate::run::waveforms::label;
 use crate::study::SystemStudy;
-use crate::words::{digits, listed};
+use crate::words::{digits, listed, quantity_at};
 
 /// Why a margin has no value where nothing needs to be quenched.
 const NOTHING_TO_QUENCH: &str = "steady sliding is stable without this dither";
@@ -30,8 +30,8 @@ const UNKNOWN_AMPLITUDE: &str = "the largest amplitude is unknown there";
 const MOST_MARGIN: f64 = 1e9;
 
 /// The key of a limit that is known.
-fn path_of(limit: Option<ActuatorLimit>) -> &'static str {
-    limit.map_or("unknown", ActuatorLimit::path)
+fn limit_in_words(limit: Option<ActuatorLimit>) -> String {
+    limit.map_or_else(|| "unknown".to_owned(), |limit| format!("the {}", quantity_at(limit.path())))
 }
 
 /// A range of frequencies with its unit.
@@ -119,17 +119,21 @@ impl ActuatorFound {
             Ok(reach) => {
                 let _ = write!(
                     text,
-                    " {} there, limited by {}.",
+                    " {} there, limited by the {}.",
                     study.in_words(Quantity::Force, reach.amplitude),
-                    reach.limit.path()
+                    quantity_at(reach.limit.path())
                 );
             }
             Err(why) => {
                 let _ = write!(text, " no known amplitude there: {why}.");
             }
         }
-        text += &self.changes_in_words(study);
         text
+    }
+
+    /// The changes of the limit that binds.
+    pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.changes_in_words(study).into_iter().collect()
     }
 
     /// The frequency at which the dither repeats as often as the vibration.
@@ -160,20 +164,21 @@ impl ActuatorFound {
         self.coverage.best.as_ref().unwrap_or(&self.own)
     }
 
-    /// The changes of the limit that binds.
-    fn changes_in_words(&self, study: &SystemStudy) -> String {
+    fn changes_in_words(&self, study: &SystemStudy) -> Option<String> {
         let scale = study.frequency_scale();
         let changes: Vec<String> = self
             .coverage
             .changes()
             .map(|(at, [below, above])| {
-                format!("from {} to {} at {}", path_of(below), path_of(above), scale.with_unit(at))
+                format!(
+                    "from {} to {} at {}",
+                    limit_in_words(below),
+                    limit_in_words(above),
+                    scale.with_unit(at)
+                )
             })
             .collect();
-        if changes.is_empty() {
-            return String::new();
-        }
-        format!(" What binds changes {}.", listed(&changes))
+        (!changes.is_empty()).then(|| format!("What binds changes {}.", listed(&changes)))
     }
 
     /// Warnings: few samples where the actuator suffices, an actuator that changes the structure, and a range that averaging does not

@@ -4,7 +4,7 @@ use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linearised::Linearised;
 
 use crate::study::SystemStudy;
-use crate::words::digits;
+use crate::words::{digits, quantity_at};
 
 /// The warning about the dither of a study that demands more than its actuator can give: the dither that `actuator` judges. `None` where
 /// the demand is unknown.
@@ -18,9 +18,9 @@ pub(crate) fn beyond_actuator(study: &SystemStudy) -> Option<String> {
     let demand = actuator.demand(&point).at(wave.amplitude);
     let (limit, used) = demand.tightest().ok().filter(|(_, used)| *used > 1.0)?;
     Some(format!(
-        "the dither of this study demands {} times what the actuator can give, by {}",
+        "the dither of this study demands {} times what the actuator can give, by the {}",
         digits(used),
-        limit.path()
+        quantity_at(limit.path())
     ))
 }
 

@@ -11,7 +11,7 @@ use crate::run::system::attractor::{VERDICTS, in_words, put_attractor, verdict_c
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
-use crate::words::{capital, digits, plural};
+use crate::words::{capital, digits, plural, quantity_at};
 
 /// The verb for a start that ends without slow motion, singular and plural. Under a dither in the band of the vibration
 /// itself no response is quiet.
@@ -124,21 +124,23 @@ impl Basins {
 
     /// How many starts fall quiet, or the range of their share over the parameter, in a few sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let mut sentences = match (&self.over, self.portraits.as_slice()) {
-            (None, [portrait]) => vec![portrait.sentence()],
-            _ => self.over_parameter(study),
-        };
+        match (&self.over, self.portraits.as_slice()) {
+            (None, [portrait]) => portrait.sentence(),
+            _ => self.over_parameter(study).join(" "),
+        }
+    }
+
+    /// The plane of the starts where the state has other numbers.
+    pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
         let other = study.system().state_names().len() - 2;
         let [first, second] = &self.names;
-        if other > 0 {
-            sentences.push(format!(
-                "The starts are in the plane of {first} and {second}; the other {other} number{} of the state {} {}.",
-                plural(other),
-                if other == 1 { "starts" } else { "start" },
-                self.start
-            ));
-        }
-        sentences.join(" ")
+        let plane = format!(
+            "The starts are in the plane of {first} and {second}; the other {other} number{} of the state {} {}.",
+            plural(other),
+            if other == 1 { "starts" } else { "start" },
+            self.start
+        );
+        (other > 0).then_some(plane).into_iter().collect()
     }
 
     /// A value of the parameter with its unit.
@@ -150,7 +152,7 @@ impl Basins {
     fn over_parameter(&self, study: &SystemStudy) -> Vec<String> {
         let Some(over) = &self.over else { return Vec::new() };
         let (from, to) = (self.value(study, over.from), self.value(study, over.to));
-        let mut text = format!("Over {} from {from} to {to}", over.parameter);
+        let mut text = format!("Over the {} from {from} to {to}", quantity_at(&over.parameter));
         let known = || {
             let portraits = self.portraits.iter();
             portraits.filter_map(|portrait| Some((portrait.value?, portrait.quiet?.fraction)))
@@ -221,7 +223,7 @@ impl Basins {
         let unknown = self.portraits.iter().flat_map(|portrait| {
             let at = match (portrait.value, &self.over) {
                 (Some(value), Some(over)) => {
-                    format!(" at {} = {}", over.parameter, self.value(study, value))
+                    format!(" at the {} {}", quantity_at(&over.parameter), self.value(study, value))
                 }
                 _ => String::new(),
             };

@@ -15,6 +15,7 @@ use crate::run::system::attractor::{
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
+use crate::words::quantity_at;
 
 /// The motion of a point in words.
 pub fn words(study: &SystemStudy, point: &SweepPoint) -> String {
@@ -39,7 +40,7 @@ impl Bifurcation {
 
     /// One sentence for each direction and one that compares both.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let path = &self.range.parameter;
+        let quantity = quantity_at(&self.range.parameter);
         let mut sentences: Vec<String> = Vec::new();
         for branch in &self.branches {
             let way = branch.direction.name();
@@ -47,7 +48,7 @@ impl Bifurcation {
                 continue;
             };
             let mut parts = vec![format!(
-                "Sweeping {path} {way}, the motion is {} at {}",
+                "Sweeping the {quantity} {way}, the motion is {} at {}",
                 briefly(study, first),
                 self.value(study, first.value)
             )];
@@ -98,10 +99,11 @@ impl Bifurcation {
         for branch in &self.branches {
             for point in &branch.points {
                 if let Err(why) = &point.end {
-                    let (path, value) = (&self.range.parameter, self.value(study, point.value));
+                    let quantity = quantity_at(&self.range.parameter);
+                    let value = self.value(study, point.value);
                     let way = branch.direction.name();
                     warnings.push(format!(
-                        "sweeping {way}, the motion at {path} = {value} is unknown: {why}"
+                        "sweeping {way}, the motion at the {quantity} {value} is unknown: {why}"
                     ));
                 }
             }

@@ -17,7 +17,7 @@ use super::study_with_design::StudyWithDesign;
 use crate::contact_state::averages_are_a_start;
 use crate::fields::Fields;
 use crate::run::waveforms::label;
-use crate::words::{digits, plural};
+use crate::words::{digits, listed, plural, quantity_at};
 
 /// A limit binds if at least this share of it is used.
 const BINDS: f64 = 0.9999;
@@ -29,6 +29,11 @@ const NARROW: f64 = 1.5;
 fn times_in_words(used: f64) -> String {
     let short = digits(used);
     if short == "1" { format!("{used} times") } else { format!("{short} times") }
+}
+
+/// A limited quantity in words.
+pub(super) fn limit_in_words(quantity: LimitedQuantity) -> String {
+    quantity_at(quantity.name())
 }
 
 /// The quantity of an objective.
@@ -106,22 +111,21 @@ impl LeastDitherFound {
     /// An operating point in words; empty where the study has one alone.
     pub(super) fn point_in_words(&self, point: &[f64]) -> String {
         let values = self.over.iter().zip(point);
-        let words: Vec<String> = values
-            .map(|(number, value)| format!("{} = {}", number.path, digits(value * number.per_unit)))
-            .collect();
-        if words.is_empty() { String::new() } else { format!(" at {}", words.join(", ")) }
+        let words: Vec<String> =
+            values.map(|(number, value)| format!("the {}", number.in_words(*value))).collect();
+        if words.is_empty() { String::new() } else { format!(" at {}", listed(&words)) }
     }
 
     /// The design variables other than the amplitude in words, each after a comma.
     pub(super) fn chosen_in_words(&self, others: &[f64]) -> String {
         let values = self.others.iter().zip(others);
         values.fold(String::new(), |mut text, (number, value)| {
-            let _ = write!(text, ", {} = {}", number.path, digits(value * number.per_unit));
+            let _ = write!(text, ", {}", number.in_words(*value));
             text
         })
     }
 
-    /// The answer in a few sentences.
+    /// The answer in two sentences; [`LeastDitherFound::notes`] has what it costs and on what it depends.
     pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
         let waveform = label(self.waveform());
         let place = match &self.dither().place {
@@ -147,26 +151,14 @@ impl LeastDitherFound {
                 let binds = if binding.is_empty() {
                     String::new()
                 } else {
-                    format!("; {} at the limit", binding.join(", "))
+                    format!("; {} at the limit", listed(&binding))
                 };
-                let drive = self.drive_in_words(study, found.drive.as_ref());
-                let follows = self.schedule_in_words(study);
-                let depends = self.sensitivity_in_words();
-                let confident = self.confident_in_words(study);
                 let largest = found.largest_multiplier();
                 let by = match study.asked().map_or(DesignStart::Local, |asked| asked.start) {
                     DesignStart::Local => "small motions about exact responses",
                     DesignStart::Rest => "exact responses and runs from rest",
                     DesignStart::Squeal => "exact responses and runs from squeal",
                 };
-                let loss = found.friction_loss.as_ref().map_or(String::new(), |(loss, point)| {
-                    let change = if *loss < 0.0 { "gains" } else { "loses" };
-                    format!(
-                        " The mean friction {change} at most {} %{}.",
-                        digits(100.0 * loss.abs()),
-                        self.point_in_words(point)
-                    )
-                });
                 let slow = self.slow_in_words(study);
                 let size = format!("{}{}", force(critical.amplitude), chosen(&critical.others));
                 let least = match (self.is_quiet() == Ok(true), slow.as_str()) {
@@ -183,7 +175,7 @@ impl LeastDitherFound {
                 };
                 format!(
                     "{least}{decides}{binds}. At {} it is verified by {by} at {} operating point{}: the largest multiplier is \
-                     {}.{drive}{confident}{loss}{follows}{depends}",
+                     {}.",
                     force(found.verified_amplitude),
                     found.verified.len(),
                     plural(found.verified.len() as u64),
@@ -219,6 +211,29 @@ impl LeastDitherFound {
         }
     }
 
+    /// What the verified dither demands of the actuator and costs, the dither that is quiet in most samples, what a schedule saves, and on
+    /// what the amplitude depends most.
+    pub fn notes(&self, study: &dyn StudyWithDesign) -> Vec<String> {
+        let Ok(found) = &self.answer().answer else { return Vec::new() };
+        let loss = found.friction_loss.as_ref().ok().map(|(loss, point)| {
+            let change = if *loss < 0.0 { "gains" } else { "loses" };
+            format!(
+                "The mean friction {change} at most {} %{}.",
+                digits(100.0 * loss.abs()),
+                self.point_in_words(point)
+            )
+        });
+        let drive = self.drive_in_words(study, found.drive.as_ref());
+        let notes = [
+            drive,
+            self.confident_in_words(study),
+            loss,
+            self.schedule_in_words(study),
+            self.sensitivity_in_words(),
+        ];
+        notes.into_iter().flatten().collect()
+    }
+
     /// Why there is no dither.
     fn why(&self, study: &dyn StudyWithDesign, none: &InfeasibleDesign) -> String {
         match &none.why {
@@ -243,11 +258,15 @@ impl LeastDitherFound {
                     LimitedQuantity::MinimumNormalLoad => 1.0 / used,
                     _ => *used,
                 };
-                format!("{} would be {} its limit{at}", quantity.name(), times_in_words(used))
+                format!(
+                    "the {} would be {} its limit{at}",
+                    limit_in_words(*quantity),
+                    times_in_words(used)
+                )
             }
             NoDesign::Unlimited { quantity, point, why } => {
                 let at = point.as_ref().map_or(String::new(), |point| self.point_in_words(point));
-                format!("{}: {why}{at}", quantity.name())
+                format!("the {}: {why}{at}", limit_in_words(*quantity))
             }
             NoDesign::Failed { point, why } => format!("{why}{}", self.point_in_words(point)),
         }
@@ -258,14 +277,14 @@ impl LeastDitherFound {
         let used = critical.used.iter();
         let limits = used.filter(|(_, used)| used.as_ref().is_ok_and(|used| *used >= BINDS));
         let mut binding: Vec<String> =
-            limits.map(|(quantity, _)| quantity.name().to_owned()).collect();
+            limits.map(|(quantity, _)| limit_in_words(*quantity)).collect();
         for (number, value) in self.others.iter().zip(&critical.others) {
             if *value == number.range.0 || *value == number.range.1 {
-                binding.push(number.path.clone());
+                binding.push(quantity_at(&number.path));
             }
         }
         if critical.worst.is_none() {
-            binding.push(self.amplitude.path.clone());
+            binding.push(quantity_at(&self.amplitude.path));
         }
         binding
     }

@@ -3,24 +3,24 @@
 use quell_design::least_dither::DesignObjective;
 use quell_model::units::Quantity;
 
-use super::answer::quantity_of;
+use super::answer::{limit_in_words, quantity_of};
 use super::found::LeastDitherFound;
 use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
 use crate::words::digits;
 
 impl LeastDitherFound {
-    /// The dither of the share of samples that is asked for, in a sentence; empty where none is.
-    pub(super) fn confident_in_words(&self, study: &dyn StudyWithDesign) -> String {
+    /// The dither of the share of samples that is asked for, in a sentence; `None` where none is.
+    pub(super) fn confident_in_words(&self, study: &dyn StudyWithDesign) -> Option<String> {
         let asked = study.asked().and_then(|asked| asked.confidence);
         let found = match (asked, &self.confident) {
             (_, Ok(found)) => found,
-            (None, Err(_)) => return String::new(),
+            (None, Err(_)) => return None,
             (Some(asked), Err(why)) => {
                 let share = digits(100.0 * asked.share);
-                return format!(
-                    " An amplitude that is quiet in {share} % of the samples is unknown: {why}."
-                );
+                return Some(format!(
+                    "An amplitude that is quiet in {share} % of the samples is unknown: {why}."
+                ));
             }
         };
         let force = |value: f64| study.in_words(study.quantity_of_amplitude(), value);
@@ -30,18 +30,22 @@ impl LeastDitherFound {
         let others = self.chosen_in_words(&found.dither.others);
         let beyond = match found.tightest() {
             Some((quantity, used)) if !found.is_allowed() => {
-                format!(", but {} would be {} times its limit", quantity.name(), digits(used))
+                format!(
+                    ", but the {} would be {} times its limit",
+                    limit_in_words(quantity),
+                    digits(used)
+                )
             }
             _ => String::new(),
         };
-        format!(
-            " An amplitude of {}{others} is quiet in {} % of {} samples (95 % interval {} {high}), {} times the least one{beyond}.",
+        Some(format!(
+            "An amplitude of {}{others} is quiet in {} % of {} samples (95 % interval {} {high}), {} times the least one{beyond}.",
             force(found.dither.amplitude),
             digits(100.0 * found.confidence.share),
             found.confidence.samples,
             force(low),
             digits(found.dither.amplitude / found.least),
-        )
+        ))
     }
 
     /// What a reader must know of the samples.

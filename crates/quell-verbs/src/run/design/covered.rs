@@ -3,10 +3,11 @@
 use quell_design::least_dither::{BeyondCovered, CoveredBox};
 use quell_model::units::Quantity;
 
+use super::answer::limit_in_words;
 use super::found::{DesignNumber, LeastDitherFound};
 use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
-use crate::words::{digits, plural};
+use crate::words::{digits, plural, quantity_at};
 
 impl LeastDitherFound {
     /// Whether a dither that is not known to be the least serves the whole box.
@@ -58,8 +59,8 @@ impl LeastDitherFound {
             format!(" With one {one} the motion stays in step")
         };
         format!(
-            "{serves} for {} from {low} to {high}, at all {examined}{leaves}; {}.",
-            number.path,
+            "{serves} for the {} from {low} to {high}, at all {examined}{leaves}; {}.",
+            quantity_at(&number.path),
             sides.join("; ")
         )
     }
@@ -108,7 +109,9 @@ fn beyond_in_words(beyond: &BeyondCovered) -> String {
     match beyond {
         BeyondCovered::BoxEnds => "nothing was examined".to_owned(),
         BeyondCovered::Loud => "it vibrates".to_owned(),
-        BeyondCovered::Exceeds(quantity) => format!("{} exceeds its limit", quantity.name()),
+        BeyondCovered::Exceeds(quantity) => {
+            format!("the {} exceeds its limit", limit_in_words(*quantity))
+        }
         BeyondCovered::Unknown(why) => {
             // The reason without its advice, which is for one response.
             let why = why.split(';').next().unwrap_or_default();

@@ -8,29 +8,31 @@ use super::found::LeastDitherFound;
 use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
 use crate::run::actuator::{demand_fields, warning_about_samples, warnings_about_actuator};
-use crate::words::{digits, listed};
+use crate::words::{digits, listed, quantity_at};
 
 /// A demand with its operating point, or why it is unknown.
 type Drive<'a> = Result<&'a (ActuatorDemand, Vec<f64>), &'a String>;
 
 impl LeastDitherFound {
-    /// The share of every limit in words, the most used first, and what an order needs; empty without an actuator.
-    pub(super) fn drive_in_words(&self, study: &dyn StudyWithDesign, drive: Drive<'_>) -> String {
-        let (Some(actuator), Ok((demand, point))) = (study.actuator(), drive) else {
-            return String::new();
-        };
+    /// The share of every limit in words, the most used first, and what an order needs; `None` without an actuator.
+    pub(super) fn drive_in_words(
+        &self,
+        study: &dyn StudyWithDesign,
+        drive: Drive<'_>,
+    ) -> Option<String> {
+        let (actuator, (demand, point)) = study.actuator().zip(drive.ok())?;
         let mut used: Vec<(f64, &str)> = demand
             .limits
             .iter()
             .filter_map(|known| Some((*known.used.as_ref().ok()?, known.limit.path())))
             .collect();
         if used.is_empty() {
-            return String::new();
+            return None;
         }
         descending_by(&mut used, |a| a.0);
         let shares: Vec<String> = used
             .iter()
-            .map(|(used, path)| format!("{} % of {path}", digits(100.0 * used)))
+            .map(|(used, path)| format!("{} % of the {}", digits(100.0 * used), quantity_at(path)))
             .collect();
         // A stack is driven from zero up, so that its voltage is rated from peak to peak.
         let is_stack = matches!(actuator, Actuator::Piezo(_));
@@ -57,12 +59,12 @@ impl LeastDitherFound {
             _ => "",
         };
         // Of the operating point where a limit is used most; elsewhere another quantity may be larger.
-        format!(
-            " It uses {}{margin}{}, where it takes {}.",
+        Some(format!(
+            "It uses {}{margin}{}, where it takes {}.",
             listed(&shares),
             self.point_in_words(point),
             listed(&needs)
-        )
+        ))
     }
 
     /// Warnings about a controller with few samples in a period, and about an actuator that changes the structure.

@@ -10,6 +10,7 @@ use super::slow_response::LargestSlowResponse;
 use super::study_with_design::StudyWithDesign;
 use crate::run::waveforms::label;
 use crate::study::{BurstNumber, Confidence};
+use crate::words::{digits, quantity_at};
 
 /// Share of a limit up to which it is kept at the amplitude of samples: the choice of the other design variables ends within this.
 const KEPT: f64 = 1.002;
@@ -21,8 +22,18 @@ pub struct DesignNumber {
     pub path: String,
     /// Value of the named key that corresponds to 1 in the equations.
     pub per_unit: f64,
+    /// The unit of the named key; empty without one.
+    pub unit: String,
     /// Smallest and largest value, in numbers of the equations.
     pub range: (f64, f64),
+}
+
+impl DesignNumber {
+    /// A value, of the equations, in words: "dither frequency 13000 Hz".
+    pub(super) fn in_words(&self, value: f64) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        format!("{} {}{unit}", quantity_at(&self.path), digits(value * self.per_unit))
+    }
 }
 
 /// The least dither of a study.

@@ -7,7 +7,7 @@ use super::answer::quantity_of;
 use super::found::LeastDitherFound;
 use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
-use crate::words::digits;
+use crate::words::{digits, quantity_at};
 
 impl LeastDitherFound {
     /// The share of the objective that a schedule saves on average over the box; more than 1 where the mean is negative, as a loss of
@@ -24,30 +24,30 @@ impl LeastDitherFound {
         Ok(1.0 - objectives.iter().sum::<f64>() / objectives.len() as f64 / single)
     }
 
-    /// What a schedule saves, in a sentence; empty where that is unknown or nothing.
-    pub(super) fn schedule_in_words(&self, study: &dyn StudyWithDesign) -> String {
-        let (Ok(saved), Some(over)) = (self.saved(), self.over.first()) else {
-            return String::new();
-        };
+    /// What a schedule saves, in a sentence; `None` where that is unknown or nothing.
+    pub(super) fn schedule_in_words(&self, study: &dyn StudyWithDesign) -> Option<String> {
+        let (saved, over) = self.saved().ok().zip(self.over.first())?;
         let minimise = study.asked().map_or(DesignObjective::Amplitude, |asked| asked.minimise);
         if saved < 5e-4 {
-            return String::new();
+            return None;
         }
-        let (percent, path) = (digits(libm::round(1000.0 * saved) / 10.0), &over.path);
+        let (percent, path) = (digits(libm::round(1000.0 * saved) / 10.0), quantity_at(&over.path));
         let name = minimise.name().replace('-', " ");
-        match minimise {
+        Some(match minimise {
             DesignObjective::Amplitude => {
                 format!(
-                    " An amplitude that follows {path} would be {percent} % smaller on average."
+                    "An amplitude that follows the {path} would be {percent} % smaller on average."
                 )
             }
             _ if saved > 1.0 => {
-                format!(" With an amplitude that follows {path} the {name} is negative on average.")
+                format!(
+                    "With an amplitude that follows the {path} the {name} is negative on average."
+                )
             }
             _ => format!(
-                " An amplitude that follows {path} would need {percent} % less {name} on average."
+                "An amplitude that follows the {path} would need {percent} % less {name} on average."
             ),
-        }
+        })
     }
 
     /// Adds `schedule` and `saved_by_schedule`.

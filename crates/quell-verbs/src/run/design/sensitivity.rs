@@ -8,6 +8,7 @@ use serde_json::Value as Json;
 use super::found::{AmplitudeRate, DesignNumber, DesignSensitivity, LeastDitherFound};
 use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
+use crate::words::{digits, quantity_at};
 
 /// Relative change by which a number is tried: whether the equations contain it, and whether it may vary.
 const TRIED: f64 = 1e-3;
@@ -208,9 +209,9 @@ impl LeastDitherFound {
         fields.nested("threshold", inner);
     }
 
-    /// The two numbers on which the least amplitude depends most, in words; empty where they are unknown.
-    pub(super) fn sensitivity_in_words(&self) -> String {
-        let Ok(found) = &self.sensitivity else { return String::new() };
+    /// The two numbers on which the least amplitude depends most, in a sentence; `None` where they are unknown.
+    pub(super) fn sensitivity_in_words(&self) -> Option<String> {
+        let found = self.sensitivity.as_ref().ok()?;
         let mut most: Vec<(&str, f64)> = found
             .rates
             .iter()
@@ -225,13 +226,9 @@ impl LeastDitherFound {
             .take(2)
             .map(|(path, relative)| {
                 let change = if *relative < 0.0 { "less" } else { "more" };
-                format!("{} % {change} for 1 % more {path}", crate::words::digits(relative.abs()))
+                format!("{} % {change} for 1 % more {}", digits(relative.abs()), quantity_at(path))
             })
             .collect();
-        if words.is_empty() {
-            String::new()
-        } else {
-            format!(" It needs {}.", words.join(", and "))
-        }
+        (!words.is_empty()).then(|| format!("It needs {}.", words.join(", and ")))
     }
 }

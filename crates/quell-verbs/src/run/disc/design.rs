@@ -12,8 +12,8 @@ use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::run::design::{
-    DesignNumber, DesignNumbers, LeastDitherFound, TriedDither, asked, at_end, least_dither,
-    without_amplitude,
+    DesignNumber, DesignNumbers, LeastDitherFound, StudyWithDesign, TriedDither, asked, at_end,
+    least_dither, without_amplitude,
 };
 use crate::study::{Design, DesignRange, DiscStudy};
 
@@ -138,7 +138,10 @@ impl DiscNumber {
         };
         let per_unit = in_equations().unwrap_or(1.0);
         let (path, ends) = (range.path.clone(), (range.from / per_unit, range.to / per_unit));
-        Self { number: DesignNumber { path, per_unit, range: ends }, parameter }
+        let unit = Some(StudyWithDesign::unit_at(study, &path))
+            .filter(|unit| unit != "1")
+            .unwrap_or_default();
+        Self { number: DesignNumber { path, per_unit, unit, range: ends }, parameter }
     }
 }
 

@@ -1,7 +1,5 @@
 //! `simulate` of a disc: its motion as a system, from a small motion, and what becomes of the growth.
 
-use std::fmt::Write as _;
-
 use std::f64::consts::TAU;
 
 use quell_model::units::Quantity;
@@ -134,45 +132,55 @@ fn usual_duration(system: &SystemStudy, kick: &Kick) -> Result<f64, Failure> {
     Ok(wanted.clamp(LEAST_PERIODS * period, MOST_PERIODS * period))
 }
 
+/// A deflection under the first load with its unit.
+fn deflection_in_words(study: &DiscStudy, value: f64) -> String {
+    let own = DiscSimulation::length_unit(study);
+    let one = DiscUnits::of(study).and_then(|units| units.one("", own));
+    let (one, unit) = one.unwrap_or((1.0, own));
+    format!("{} {unit}", digits(one * value))
+}
+
 impl DiscSimulation {
     /// The unit of a deflection: the radius of the first load under a friction law, else a length that the load defines.
     pub fn length_unit(study: &DiscStudy) -> &'static str {
         if study.disc().law().is_some() { "r₀" } else { "(normal load)/(M_pω_ref²)" }
     }
 
-    /// The outcome in a few sentences.
+    /// The outcome in one or two sentences.
     pub fn sentence(&self, study: &DiscStudy) -> String {
-        let mut text = self.motion.sentence(&self.system);
-        let units = DiscUnits::of(study);
-        let length = |value: f64| {
-            let own = Self::length_unit(study);
-            let (one, unit) = units.and_then(|units| units.one("", own)).unwrap_or((1.0, own));
-            format!("{} {unit}", digits(one * value))
-        };
+        let text = self.motion.sentence(&self.system);
+        let last = self.amplitude.map_or(String::new(), |amplitude| {
+            format!(
+                " Over the last tenth of the run the amplitude of the deflection under load 0 is {}.",
+                deflection_in_words(study, amplitude)
+            )
+        });
+        text + &last
+    }
+
+    /// The motion at the start, and how long the run lasts where that was not requested.
+    pub fn notes(&self, study: &DiscStudy) -> Vec<String> {
+        let mut notes = Vec::new();
         if self.motion.request.begins_as_the_study() {
             let words = match (self.kick.changes_contacts, self.kick.amplitude) {
                 (true, deflection) => format!(
                     "loads and slip velocities change by at most {KICK} of their values, and the deflection under load 0 by {}",
-                    length(deflection)
+                    deflection_in_words(study, deflection)
                 ),
                 (false, deflection) => {
-                    format!("its deflection under load 0 is {}", length(deflection))
+                    format!(
+                        "its deflection under load 0 is {}",
+                        deflection_in_words(study, deflection)
+                    )
                 }
             };
-            let _ = write!(text, " In the small motion at the start {words}.");
-        }
-        if let Some(amplitude) = self.amplitude {
-            let _ = write!(
-                text,
-                " Over the last tenth of the run the amplitude of the deflection under load 0 is {}.",
-                length(amplitude)
-            );
+            notes.push(format!("In the small motion at the start {words}."));
         }
         if self.chosen {
             let until = in_units_of(&self.system, Quantity::Time, self.motion.end.time);
-            let _ = write!(text, " The duration {until} was chosen; --until sets another.");
+            notes.push(format!("The duration {until} was chosen; --until sets another."));
         }
-        text
+        notes
     }
 
     /// Warnings about the result.

@@ -71,7 +71,7 @@ fn behaviour(orbit: &Orbit, contact: usize, count: usize) -> String {
     }
 }
 
-/// What the contacts do, in sentences.
+/// What the contacts do, in a sentence.
 fn contacts_in_words(study: &SystemStudy, orbit: &Orbit) -> String {
     let contacts = &study.system().contacts;
     let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
@@ -90,33 +90,34 @@ fn contacts_in_words(study: &SystemStudy, orbit: &Orbit) -> String {
             plural(events)
         );
     }
-    let sentence = |(_, members): &(String, Vec<usize>)| {
+    let clause = |(_, members): &(String, Vec<usize>)| {
         let names: Vec<&str> = members.iter().map(|index| contacts[*index].name.as_str()).collect();
         let doing = behaviour(orbit, members[0], members.len());
         match names.as_slice() {
-            [only] => format!("Contact {only} {doing}."),
+            [only] => format!("contact {only} {doing}"),
             [.., _] if members.len() == contacts.len() && members.len() > 2 => {
-                format!("All {} contacts {doing}.", names.len())
+                format!("all {} contacts {doing}", names.len())
             }
-            [before @ .., last] => format!("Contacts {} and {last} {doing}.", before.join(", ")),
+            [before @ .., last] => format!("contacts {} and {last} {doing}", before.join(", ")),
             [] => String::new(),
         }
     };
-    groups.iter().map(sentence).collect::<Vec<_>>().join(" ")
+    let clauses: Vec<String> = groups.iter().map(clause).collect();
+    if clauses.is_empty() { String::new() } else { format!("{}.", capital(&clauses.join("; "))) }
 }
 
-/// The verdict in a sentence.
+/// The verdict as the end of a sentence.
 fn verdict_in_words(orbit: &Orbit) -> &'static str {
     match orbit.verdict() {
-        OrbitVerdict::Stable => "It is stable: small deviations die out.",
-        OrbitVerdict::Unstable => "It is unstable: small deviations grow.",
+        OrbitVerdict::Stable => "and is stable: small deviations die out",
+        OrbitVerdict::Unstable => "and is unstable: small deviations grow",
         OrbitVerdict::Undecided => {
-            "Its stability is undecided: the deciding multiplier has modulus 1 within its error."
+            "and undecided stability: the deciding multiplier has modulus 1 within its error"
         }
     }
 }
 
-/// A motion in a few sentences.
+/// A motion in two sentences.
 pub fn sentence(study: &SystemStudy, found: &FoundMotion) -> String {
     let orbit = &found.orbit;
     let period = with_unit(study, Quantity::Time, orbit.period);
@@ -133,15 +134,15 @@ pub fn sentence(study: &SystemStudy, found: &FoundMotion) -> String {
     };
     let contacts = contacts_in_words(study, orbit);
     let verdict = verdict_in_words(orbit);
-    let instead = match &found.by {
-        FoundBy::Run { instead: Some(why), .. } => {
-            let is_known = matches!(why, NoOrbit::Ends { .. } | NoOrbit::NoSliding(_));
-            let fact = if is_known { "does not exist" } else { "was not found" };
-            format!(" It replaces the base response, which {fact}: {why}.")
-        }
-        _ => String::new(),
-    };
-    format!("{subject} has period {period}{locked}. {contacts} {verdict}{instead}")
+    format!("{subject} has period {period}{locked} {verdict}. {contacts}")
+}
+
+/// Why the base response was not found where the motion replaces it.
+fn instead_in_words(found: &FoundMotion) -> Option<String> {
+    let FoundBy::Run { instead: Some(why), .. } = &found.by else { return None };
+    let is_known = matches!(why, NoOrbit::Ends { .. } | NoOrbit::NoSliding(_));
+    let fact = if is_known { "does not exist" } else { "was not found" };
+    Some(format!("The motion replaces the base response, which {fact}: {why}."))
 }
 
 /// The events of a contact as words in their order; what it does without events.
@@ -239,6 +240,11 @@ impl PeriodicResponse {
             };
         };
         sentence(study, found)
+    }
+
+    /// Why there is no base response.
+    pub fn notes(&self) -> Vec<String> {
+        self.found.as_ref().and_then(instead_in_words).into_iter().collect()
     }
 
     /// Warnings: those of the study, and one-sided multipliers.

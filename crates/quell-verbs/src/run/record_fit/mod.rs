@@ -22,6 +22,7 @@ use super::named_estimates::{NamedEstimates, ReportedParameter};
 use super::recorded_motion::ObservedMotion;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::{Change, Kind, Study};
+use crate::words::{more_digits, quantity_at};
 use model::RecordModel;
 use request::free_numbers;
 
@@ -351,7 +352,7 @@ impl RecordFit {
                 .iter()
                 .zip(&other.values)
                 .map(|(number, value)| {
-                    format!("{} = {}", number.name(), crate::words::digits(*value))
+                    format!("{} {}", quantity_at(number.name()), more_digits(*value))
                 })
                 .collect();
             if away < NEAR_MINIMUM {

@@ -61,8 +61,8 @@ impl MeasuredResponse {
     }
 
     /// The levels in the band in a sentence of its own.
-    pub(super) fn band_in_words(&self, study: &SystemStudy) -> String {
-        let Some(InBand { band, values }) = self.in_band(study) else { return String::new() };
+    pub(super) fn band_in_words(&self, study: &SystemStudy) -> Option<String> {
+        let InBand { band, values } = self.in_band(study)?;
         let [low, high] = band.map(|end| frequency_in_words(study.units(), end));
         let levels = values.and_then(|(with, without)| {
             Ok([level(with[0], without[0])?, level(with[1], without[1])?])
@@ -81,7 +81,7 @@ impl MeasuredResponse {
             }
             Err(why) => format!("the level is undefined: {why}"),
         };
-        format!(" From {low} to {high} {change}.")
+        Some(format!("From {low} to {high} {change}."))
     }
 }
 

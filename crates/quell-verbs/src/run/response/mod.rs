@@ -226,27 +226,29 @@ impl MeasuredResponse {
             }
             .sentence(effect),
         };
-        let levels = self.band_in_words(study);
-        format!("Started {from}, {what}.{levels}{}", self.cost(study))
+        let cost = self.costs(study).map_or(String::new(), |cost| format!(" {cost}"));
+        format!("Started {from}, {what}.{cost}")
+    }
+
+    /// The levels in the requested band.
+    pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.band_in_words(study).into_iter().collect()
     }
 
     /// The cost of every dither in a sentence of its own.
-    fn cost(&self, study: &SystemStudy) -> String {
+    fn costs(&self, study: &SystemStudy) -> Option<String> {
         let units = study.units();
+        let one_contact = study.system().contacts.len() == 1;
+        let of =
+            |name: &str| if one_contact { String::new() } else { format!(" of contact {name}") };
         let losses = study.system().contacts.iter().zip(0..).filter_map(|(contact, index)| {
             let loss = self.friction_loss(index).ok()?;
             if loss.abs() < UNCHANGED {
-                return Some(format!(
-                    "leaves the mean friction of contact {} at that of steady sliding",
-                    contact.name
-                ));
+                return Some(format!("leaves the mean friction{} unchanged", of(&contact.name)));
             }
             let change = if loss < 0.0 { "raises" } else { "lowers" };
             let share = percent(loss.abs());
-            Some(format!(
-                "{change} the mean friction of contact {} by {share} relative to steady sliding",
-                contact.name
-            ))
+            Some(format!("{change} the mean friction{} by {share}", of(&contact.name)))
         });
         let several = self.response.dithered.inputs.len() > 1;
         let inputs = self.response.dithered.inputs.iter().enumerate();
@@ -257,16 +259,16 @@ impl MeasuredResponse {
             let stroke = in_units(units, Quantity::Displacement, stroke);
             let of = if several { format!(" at dither[{index}]") } else { String::new() };
             Some(format!(
-                "{does} a mean power of {power} while the point on which it acts moves by {stroke} peak to peak{of}{}",
+                "{does} the mean power {power} with a stroke of {stroke}{of}{}",
                 in_series.and_then(Result::ok).map_or(String::new(), |cost| format!(
-                    ", and an actuator in series with the spring of the contact delivers {} with a stroke of {}",
+                    ", or in series with the spring of the contact {} with a stroke of {}",
                     in_units(units, Quantity::Power, cost.power),
                     in_units(units, Quantity::Displacement, cost.stroke)
                 ))
             ))
         });
         let parts: Vec<String> = losses.chain(costs).collect();
-        if parts.is_empty() { String::new() } else { format!(" It {}.", listed(&parts)) }
+        (!parts.is_empty()).then(|| format!("It {}.", listed(&parts)))
     }
 
     /// Relative loss of the mean friction of a contact against steady sliding without dither; negative for a gain.

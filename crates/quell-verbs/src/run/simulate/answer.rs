@@ -77,12 +77,6 @@ impl Simulation {
             0 => "without any contact event".to_owned(),
             _ => format!("after {}", listed(&each)),
         };
-        let chosen = match self.request.until {
-            Some(_) => String::new(),
-            None => format!(
-                " The run lasts {DEFAULT_PERIODS} periods of the slowest oscillation; --until sets another time."
-            ),
-        };
         let start = capital(&self.start_in_words(study));
         let contacts = match self.end.contacts.len() {
             0 => format!("{start}: the run ends at t = {time}"),
@@ -91,9 +85,19 @@ impl Simulation {
                 self.contacts_in_words(study.system())
             ),
         };
-        let found = [self.manoeuvre_sentence(study), self.sound_sentence(study)];
-        let whole = format!("{contacts}.{chosen}");
-        [Some(whole)].into_iter().chain(found).flatten().collect::<Vec<_>>().join(" ")
+        let vibrates =
+            self.manoeuvre_sentence(study).map_or(String::new(), |said| format!(" {said}"));
+        format!("{contacts}.{vibrates}")
+    }
+
+    /// How long the run lasts where that was not requested, and the sound.
+    pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        let chosen = self.request.until.is_none().then(|| {
+            format!(
+                "The run lasts {DEFAULT_PERIODS} periods of the slowest oscillation; --until sets another time."
+            )
+        });
+        chosen.into_iter().chain(self.sound_sentence(study)).collect()
     }
 
     /// When the observed row vibrates, in one or two sentences, where a drive, a load or a dither varies in time.

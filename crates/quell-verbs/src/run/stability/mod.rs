@@ -299,7 +299,7 @@ impl SlidingStability {
             return String::new();
         };
         let without = undithered.as_ref().map_or(String::new(), |found| {
-            format!(" Without dither it is {}.", found.growth.verdict().name())
+            format!(" Without dither it is {}", found.growth.verdict().name())
         });
         let waves = study.system().inputs.first().map(|input| input.profile.waves());
         let now = waves.and_then(|waves| waves.first()).map_or(0.0, |wave| wave.amplitude);
@@ -309,18 +309,21 @@ impl SlidingStability {
         };
         let next = critical.iter().find(|found| found.amplitude > now && found.becomes == wanted);
         let more = next.map_or(String::new(), |found| {
+            let is_first = study.system().inputs.len() > 1;
+            let (separator, more) = match (without.is_empty(), is_first) {
+                (true, true) => (" ", "A larger first dither"),
+                (true, false) => (" ", "More dither"),
+                (false, true) => ("; ", "a larger first dither"),
+                (false, false) => ("; ", "more dither"),
+            };
             format!(
-                " {} makes it {} from the amplitude {} on{}.",
-                if study.system().inputs.len() > 1 {
-                    "A larger first dither"
-                } else {
-                    "More dither"
-                },
+                "{separator}{more} makes it {} from the amplitude {} on{}",
                 becomes(found.becomes),
                 force(study.units(), found.amplitude),
                 if found.contacts_stay_closed { "" } else { ", if every contact stayed closed" }
             )
         });
-        without + &more
+        let said = without + &more;
+        if said.is_empty() { said } else { said + "." }
     }
 }

@@ -65,6 +65,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
     let number = |range: &DesignRange| DesignNumber {
         path: range.path.clone(),
         per_unit: 1.0,
+        unit: study.unit_of(&range.path).filter(|unit| *unit != "1").unwrap_or("").to_owned(),
         range: (range.from, range.to),
     };
     let numbers = DesignNumbers {

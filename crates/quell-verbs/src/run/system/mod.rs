@@ -22,7 +22,7 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::needs::StudyVerb;
 use crate::study::{SystemStudy, UnitSystem};
-use crate::words::digits;
+use crate::words::{digits, more_digits};
 
 /// The failure of a verb with its reason.
 pub(in crate::run) fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
@@ -96,6 +96,12 @@ pub fn in_units(units: UnitSystem, quantity: Quantity, value: f64) -> String {
 pub(crate) fn value_at(study: &SystemStudy, path: &str, value: f64) -> String {
     let unit = study.unit_of(path).filter(|unit| *unit != "1");
     format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+}
+
+/// [`value_at`] with more digits, for values that are close to each other.
+pub(crate) fn value_closely_at(study: &SystemStudy, path: &str, value: f64) -> String {
+    let unit = study.unit_of(path).filter(|unit| *unit != "1");
+    format!("{}{}", more_digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
 }
 
 /// A number of a study with its unit; a time in seconds where plain times of its options are.

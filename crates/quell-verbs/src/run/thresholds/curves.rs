@@ -20,7 +20,7 @@ use crate::run::system::start::state_columns;
 use crate::run::system::tracked::{TrackRequest, understood};
 use crate::run::system::{failed, has_equations, value_at};
 use crate::study::SystemStudy;
-use crate::words::plural;
+use crate::words::{plural, quantity_at};
 
 /// Lines across the second parameter on which the search for curves starts.
 const LINES: u32 = 5;
@@ -243,7 +243,7 @@ pub(super) fn put_contacts(fields: &mut Fields, study: &SystemStudy, contacts: &
 fn line_in_words(study: &SystemStudy, request: &CurvesRequest, line: &OpenLine) -> String {
     let place = value_at(study, &request.along, line.along);
     let why = line.why.words(|value| value_at(study, &request.parameter, value));
-    format!("on the line {} = {place}: {why}", request.along)
+    format!("on the line of the {} {place}: {why}", quantity_at(&request.along))
 }
 
 impl Curves {
@@ -261,30 +261,40 @@ impl Curves {
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let CurvesRequest { parameter, along, between: (first, last), .. } = &self.request;
         let (from, to) = (value_at(study, along, *first), value_at(study, along, *last));
+        let [parameter, along] = [parameter, along].map(|path| quantity_at(path));
         let count = self.found.curves.len();
         if count == 0 {
             return format!(
-                "No threshold of {parameter} was found on {LINES} lines across {along} from {from} to {to}."
+                "No threshold of the {parameter} was found on {LINES} lines across the {along} from {from} to {to}."
             );
         }
-        let mut sentences = vec![format!(
-            "Found {count} threshold curve{} of {parameter} along {along} from {from} to {to}, with {} point{} in total.",
+        format!(
+            "Found {count} threshold curve{} of the {parameter} along the {along} from {from} to {to}, with {} point{} in total.",
             plural(count),
             self.points(),
             plural(self.points())
-        )];
+        )
+    }
+
+    /// Where the curves end inside the windows.
+    pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        let along = &self.request.along;
+        let mut notes = Vec::new();
         for curve in &self.found.curves {
             let ends =
                 [(curve.points.first(), curve.ends[0]), (curve.points.last(), curve.ends[1])];
             for (point, end) in ends {
                 if let (Some(point), Some(why)) = (point, why_it_ends(end)) {
-                    let along = format!("{along} = {}", value_at(study, along, point.along));
+                    let place = value_at(study, along, point.along);
                     let kind = self.kind(study, curve);
-                    sentences.push(format!("The {kind} curve ends at {along}: {why}."));
+                    notes.push(format!(
+                        "The {kind} curve ends at the {} {place}: {why}.",
+                        quantity_at(along)
+                    ));
                 }
             }
         }
-        sentences.join(" ")
+        notes
     }
 
     /// Warnings: those of the study, about slip beyond the ranges of the laws, and lines on which curves may be missing.

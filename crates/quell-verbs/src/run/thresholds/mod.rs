@@ -31,6 +31,7 @@ use crate::effort::STEPS_OF_A_SEARCH;
 use crate::parallel::Parallel;
 use crate::quantity::bearable;
 use crate::study::SystemStudy;
+use crate::words::quantity_at;
 
 pub use answer::events_in_words;
 pub use window::{AMPLITUDE, window_of};
@@ -161,8 +162,9 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
         return Err(failed(
             "thresholds",
             format!(
-                "{why}, at {path} = {from}: begin where a base response exists, give a state near another motion (--near), or \
-                 request runs (--from-rest, --from-squeal, …)"
+                "{why}, at the {} {from}: begin where a base response exists, give a state near another motion (--near), or \
+                 request runs (--from-rest, --from-squeal, …)",
+                quantity_at(path)
             ),
         ));
     }

@@ -11,7 +11,7 @@ use super::curves::kind_in_words;
 use crate::run::criticality;
 use crate::run::system::in_units;
 use crate::study::SystemStudy;
-use crate::words::{capital, digits};
+use crate::words::{capital, quantity_at};
 
 /// Half the width of an interval, relative to its value, up to which a change of a run is a single value in a sentence. Wider ones,
 /// where halving was stopped, are reported with their error.
@@ -77,8 +77,8 @@ struct NamedParameter<'a> {
 }
 
 impl NamedParameter<'_> {
-    fn name(&self) -> &str {
-        &self.done.request.parameter
+    fn name(&self) -> String {
+        quantity_at(&self.done.request.parameter)
     }
 
     fn number(&self, limit: &Limit) -> String {
@@ -90,14 +90,14 @@ impl NamedParameter<'_> {
     }
 
     fn value(&self, limit: &Limit) -> String {
-        format!("{} = {}", self.name(), self.number(limit))
+        format!("the {} {}", self.name(), self.number(limit))
     }
 
     fn at(&self, value: f64) -> String {
         self.value(&Limit::of_range(value))
     }
 
-    /// "from D = 1 (fold) to 2 (flip)", "from D = 1 on (fold)", "up to D = 2 (flip)".
+    /// "from the load 1 (fold) to 2 (flip)", "from the load 1 on (fold)", "up to the load 2 (flip)".
     fn interval<T>(&self, interval: &Interval<T>) -> String {
         let Interval { from, to, .. } = interval;
         let kind = |limit: &Limit| {
@@ -126,7 +126,7 @@ impl NamedParameter<'_> {
         listed(&each, "and")
     }
 
-    /// The range that all intervals cover: "D from 1 to 2".
+    /// The range that all intervals cover: "load from 1 to 2".
     fn whole<T>(&self, intervals: &[Interval<T>]) -> String {
         let ends = intervals.first().zip(intervals.last());
         ends.map_or_else(String::new, |(first, last)| {
@@ -164,11 +164,24 @@ impl Thresholds {
                 None => answers.push((vec![start], answer)),
             }
         }
-        for (starts, answer) in answers {
-            let (starts, ramp) = (listed(&starts, "or"), self.ramp_in_words(study));
-            sentences.push(format!("For runs {starts}{ramp}, {answer}."));
+        let ramp = self.ramp_in_words(study);
+        let answers = answers
+            .into_iter()
+            .map(|(starts, answer)| format!("for runs {}{ramp}, {answer}", listed(&starts, "or")));
+        let answers: Vec<String> = answers.collect();
+        if !answers.is_empty() {
+            sentences.push(format!("{}.", capital(&answers.join("; "))));
         }
         sentences.join(" ")
+    }
+
+    /// Where and why the response ends within the range.
+    pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        let parameter = NamedParameter { done: self, study };
+        let Ok(local) = &self.local else { return Vec::new() };
+        let (intervals, end) = self.verdicts(study, local);
+        let until_then = intervals.last().is_some_and(|last| last.answer == OrbitVerdict::Stable);
+        self.of_the_end(&parameter, (end, local.ending), until_then).into_iter().collect()
     }
 
     fn without_response(&self, parameter: &NamedParameter<'_>, why: &NoOrbit) -> String {
@@ -209,7 +222,7 @@ impl Thresholds {
             let criticality = threshold.first_lyapunov.map_err(|why| why.to_string());
             let kind = kind_in_words(study, threshold.kind, &threshold.contacts)
                 + &criticality::clause(&criticality, ", ", "")
-                + &criticality::opening_clause(&threshold.fold, ", ", path);
+                + &criticality::opening_clause(&threshold.fold, ", ", &quantity_at(path));
             let [to, next] = gap.map_or([threshold.value; 2], ResponseGap::ends);
             let limit = |value| Limit { value, kind: Some(kind.clone()), ..Limit::of_gap(value) };
             intervals.push(Interval { from, to: limit(to), answer });
@@ -283,9 +296,7 @@ impl Thresholds {
                 format!("{subject} is stable {}", parameter.intervals(several.iter().copied()))
             }
         };
-        let stable_until_then = intervals.last().as_ref().is_some_and(is_stable);
-        let ends = self.of_the_end(parameter, (end, local.ending), stable_until_then);
-        format!("{}.{ends}", capital(&statement))
+        format!("{}.", capital(&statement))
     }
 
     /// Where and why the response ends within the range.
@@ -294,41 +305,45 @@ impl Thresholds {
         parameter: &NamedParameter<'_>,
         (end, ending): (Option<&Threshold>, BranchEnding),
         said_already: bool,
-    ) -> String {
+    ) -> Option<String> {
         let at = |value: f64| parameter.at(value);
         let beyond = self
             .again(parameter)
             .unwrap_or_else(|| "beyond, runs end on another motion".to_owned());
-        match (end, ending) {
+        Some(match (end, ending) {
+            (None, BranchEnding::Covered) => return None,
             (Some(end), _) if said_already => {
                 let ends = if end.kind == ThresholdKind::Fold { "turns back" } else { "ends" };
-                format!(" There it {ends}; {beyond}.")
+                format!("There the response {ends}; {beyond}.")
             }
             (Some(end), ending)
                 if end.kind == ThresholdKind::Fold || ending == BranchEnding::Covered =>
             {
-                format!(" It turns back at {} ({}); {beyond}.", at(end.value), end.kind.name())
+                format!(
+                    "The response turns back at {} ({}); {beyond}.",
+                    at(end.value),
+                    end.kind.name()
+                )
             }
             (Some(end), _) => {
-                format!(" It ends at {} ({}); {beyond}.", at(end.value), end.kind.name())
+                format!("The response ends at {} ({}); {beyond}.", at(end.value), end.kind.name())
             }
-            (None, BranchEnding::Covered) => String::new(),
             (
                 None,
                 BranchEnding::TurnedBack { at: value }
                 | BranchEnding::LostTurning { furthest: value, .. },
             ) => {
-                format!(" It turns back at {}; {beyond}.", at(value))
+                format!("The response turns back at {}; {beyond}.", at(value))
             }
             (None, BranchEnding::Touch { at: value }) => {
-                format!(" It ends at {}, where it grazes v_r = 0; {beyond}.", at(value))
+                format!("The response ends at {}, where it grazes v_r = 0; {beyond}.", at(value))
             }
             (None, BranchEnding::Lost { at: value }) => {
                 let then =
                     if self.resumes { beyond.as_str() } else { "the rest of the range is unknown" };
-                format!(" It could not be followed beyond {}; {then}.", at(value))
+                format!("The response could not be followed beyond {}; {then}.", at(value))
             }
-        }
+        })
     }
 
     fn ramp_in_words(&self, study: &SystemStudy) -> String {
@@ -367,10 +382,9 @@ impl Thresholds {
         match switches.unknown.as_slice() {
             [] => answer,
             [(value, _)] => format!("{answer}; the outcome is unknown at {}", parameter.at(*value)),
-            several => format!(
-                "{answer}; the outcome is unknown at {} values tried",
-                digits(several.len() as f64)
-            ),
+            several => {
+                format!("{answer}; the outcome is unknown at {} values tried", several.len())
+            }
         }
     }
 }

@@ -185,11 +185,11 @@ impl WaveformComparison {
                 named(best)
             ),
             (RankedBy::Exact, false, 1) => format!(
-                "{of} an exact amplitude that stabilises steady sliding at the study's frequency is {}, with {value}.",
+                "{of} an exact amplitude that stabilises steady sliding is {}, with {value}.",
                 named(best)
             ),
             (RankedBy::Exact, false, _) => format!(
-                "{of} an exact amplitude that stabilises steady sliding at the study's frequency {} has the least, {value}.",
+                "{of} an exact amplitude that stabilises steady sliding, {} has the least, {value}.",
                 named(best)
             ),
             (RankedBy::Averaging, ..) => {
@@ -235,7 +235,7 @@ impl WaveformComparison {
             let named = named(cheapest);
             let _ = write!(
                 text,
-                " The least power is that of {named}: {share} % of that of the continuous {carrier}."
+                " The least power is that of {named}, {share} % of that of the continuous {carrier}."
             );
         }
         text

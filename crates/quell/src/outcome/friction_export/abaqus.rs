@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use super::comments::{ExportUnits, comment, provenance};
 use crate::run::friction::export::FrictionExport;
 use crate::study::SystemStudy;
-use crate::words::digits;
+use crate::words::more_digits;
 
 /// Marks a comment.
 const MARK: &str = "**";
@@ -47,7 +47,7 @@ fn table(text: &mut String, mark: &str, export: &FrictionExport, factor: f64) {
 /// The model with a decay, as a comment with its error.
 fn decay(text: &mut String, export: &FrictionExport, unit: &str) {
     let fit = &export.decay;
-    let (least, table) = (digits(fit.largest_error), digits(export.table.largest_error));
+    let (least, table) = (more_digits(fit.largest_error), more_digits(export.table.largest_error));
     let lines = [
         format!(
             "an exponential decay instead has the largest error {least}; the table has {table}"

@@ -8,7 +8,7 @@ use crate::run::friction::export::FrictionExport;
 use crate::run::law;
 use crate::run::system::velocity_in_words;
 use crate::study::{SystemStudy, UnitSystem};
-use crate::words::digits;
+use crate::words::more_digits;
 
 /// The units of the numbers of a file, which are those of the study.
 pub(super) struct ExportUnits {
@@ -42,16 +42,16 @@ pub(super) fn provenance(
     };
     lines.push(what.to_owned());
     if let Some(fast) = export.fast_velocity {
-        lines.push(format!("largest fast slip velocity: {} {}", digits(fast), units.speed));
+        lines.push(format!("largest fast slip velocity: {} {}", more_digits(fast), units.speed));
         lines.push("It holds while the slow motion is slow against the dither.".to_owned());
     }
     let table = &export.table;
     let last = table.points.last().map_or(0.0, |point| point.0);
-    lines.push(format!("slip speeds from 0 to {} {}", digits(last), units.speed));
+    lines.push(format!("slip speeds from 0 to {} {}", more_digits(last), units.speed));
     lines.push(format!(
         "largest error of the coefficient between the {} points of the table: {}",
         table.points.len(),
-        digits(table.largest_error)
+        more_digits(table.largest_error)
     ));
     for contact in &study.system().contacts {
         let words = law::words(&contact.friction, &|speed| velocity_in_words(study, speed));

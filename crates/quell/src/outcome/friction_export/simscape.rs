@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use super::comments::{ExportUnits, comment, provenance};
 use crate::run::friction::export::FrictionExport;
 use crate::study::SystemStudy;
-use crate::words::digits;
+use crate::words::more_digits;
 
 /// Marks a comment.
 const MARK: &str = "%";
@@ -20,10 +20,10 @@ pub(super) fn text(study: &SystemStudy, export: &FrictionExport, units: &ExportU
     let &ExportUnits { speed, force, .. } = units;
     let load = export.normal_load;
     let fit = &export.translational;
-    let least = digits(fit.slowest);
+    let least = more_digits(fit.slowest);
     let about = format!(
         "Translational Friction, fitted: largest error {} of the force in {force}, at slip speeds from {least} up",
-        digits(fit.largest_error * load)
+        more_digits(fit.largest_error * load)
     );
     let viscous = format!("{force}/({speed})");
     text.push('\n');

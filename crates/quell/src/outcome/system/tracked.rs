@@ -28,6 +28,10 @@ impl Presented<SystemSetup> for TrackedStability {
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
         let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");

@@ -1,7 +1,5 @@
 //! Eigenvalues followed over a parameter as sentence, JSON and datasets.
 
-use std::fmt::Write as _;
-
 use quell_linear::growth::Verdict;
 use quell_linear::tracking::{StabilityChange, ThresholdOfStability};
 use quell_model::units::Quantity;
@@ -14,7 +12,7 @@ use crate::fields::Fields;
 use crate::run::criticality;
 use crate::run::system::{oscillating, value_at};
 use crate::study::{SystemStudy, UnitSystem};
-use crate::words::{digits, plural};
+use crate::words::{digits, plural, quantity_at};
 
 impl TrackedStability {
     /// The protocol of the verdicts.
@@ -25,6 +23,7 @@ impl TrackedStability {
     /// The answer in one or two sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let TrackRequest { parameter, window: (from, to), .. } = &self.request;
+        let parameter = quantity_at(parameter);
         let changes: Vec<String> = self
             .tracked
             .thresholds
@@ -44,7 +43,7 @@ impl TrackedStability {
                 };
                 let at = self.value(study, found.value);
                 let clause = criticality::clause(first_lyapunov, " (", ")");
-                format!("{} at {parameter} = {at}, {how}{clause}", found.verdicts[1].name())
+                format!("{} at the {parameter} {at}, {how}{clause}", found.verdicts[1].name())
             })
             .collect();
         let by = if self.averaged { "By averaging, steady" } else { "Steady" };
@@ -56,10 +55,10 @@ impl TrackedStability {
                 format!(" This holds only where contacts {} stay closed.", names.join(" and "))
             }
         };
-        let mut sentence = if changes.is_empty() {
+        let sentence = if changes.is_empty() {
             let known = self.verdicts().into_iter().map(|(verdict, from, to)| {
                 let to = self.value(study, to);
-                format!("{verdict} from {parameter} = {} to {to}", digits(from))
+                format!("{verdict} from the {parameter} {} to {to}", digits(from))
             });
             let known = known.collect::<Vec<_>>().join(", ");
             let unknown = if self.tracked.unknown.is_empty() {
@@ -72,18 +71,21 @@ impl TrackedStability {
         } else {
             format!("{by} sliding becomes {}.", changes.join("; "))
         };
-        if !self.curves.is_empty() {
-            let count = self.curves.len();
-            let _ = write!(sentence, " Found {count} curve{} of thresholds.", plural(count));
-        }
-        for SurfaceAtRest { value, contact } in &self.rests {
-            let value = self.value(study, *value);
-            let _ = write!(
-                sentence,
-                " At {parameter} = {value} contact {contact} comes to rest: its surface reverses, and there is no steady sliding."
-            );
-        }
         sentence + &condition
+    }
+
+    /// The number of curves, and where a surface reverses.
+    pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        let count = self.curves.len();
+        let curves = format!("Found {count} curve{} of thresholds.", plural(count));
+        let parameter = quantity_at(&self.request.parameter);
+        let rests = self.rests.iter().map(|SurfaceAtRest { value, contact }| {
+            let value = self.value(study, *value);
+            format!(
+                "At the {parameter} {value} contact {contact} comes to rest: its surface reverses, and there is no steady sliding."
+            )
+        });
+        (count > 0).then_some(curves).into_iter().chain(rests).collect()
     }
 
     /// The verdicts over the window, each with its first and last value; a single value in between is not listed.
@@ -182,13 +184,13 @@ impl TrackedStability {
     /// Warnings: those of the study, ranges without an answer, and approaches that were not examined.
     fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let unknown = self.tracked.unknown.iter().map(|range| {
-            let parameter = &self.request.parameter;
+            let parameter = quantity_at(&self.request.parameter);
             let to = self.value(study, range.to);
             if range.from == range.to {
-                format!("at {parameter} = {to} there is no answer: {}", range.why)
+                format!("at the {parameter} {to} there is no answer: {}", range.why)
             } else {
                 let from = digits(range.from);
-                format!("from {parameter} = {from} to {to} there is no answer: {}", range.why)
+                format!("from the {parameter} {from} to {to} there is no answer: {}", range.why)
             }
         });
         let unexamined = Some(self.tracked.unexamined).filter(|count| *count > 0).map(|count| {
@@ -265,9 +267,9 @@ fn between(study: &SystemStudy, path: &str, (from, to): (f64, f64)) -> String {
     let unit = study.unit_of(path).filter(|unit| *unit != "1");
     let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
     if from == to {
-        return format!("at {path} = {}{unit}", digits(from));
+        return format!("at the {} {}{unit}", quantity_at(path), digits(from));
     }
-    format!("from {path} = {} to {}{unit}", digits(from), digits(to))
+    format!("from the {} {} to {}{unit}", quantity_at(path), digits(from), digits(to))
 }
 
 /// One threshold; `unit` is that of the parameter.
