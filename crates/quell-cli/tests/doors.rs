@@ -224,13 +224,13 @@ fn thresholds_answer_with_the_number() {
     let amplitude = "dither.amplitude";
     assert_eq!(
         sentence("quench.toml", amplitude, ["0.4", "0.6"], &["--from-rest", "--from-squeal"]),
-        "The base response is stable from dither.amplitude = 0.496562 on (grazing) and unstable below. \
-         For runs from rest or from the undithered limit cycle, the dither quenches from dither.amplitude = 0.496562 on (grazing)."
+        "The base response is stable from the dither amplitude 0.4966 on (grazing) and unstable below. \
+         For runs from rest or from the undithered limit cycle, the dither quenches from the dither amplitude 0.4966 on (grazing)."
     );
     assert_eq!(
         sentence("quench.toml", amplitude, ["0.3", "0.4"], &["--from-rest"]),
-        "The base response is unstable at every dither.amplitude from 0.3 to 0.4 (no threshold in this range). \
-         For runs from rest, the dither quenches at no dither.amplitude from 0.3 to 0.4."
+        "The base response is unstable at every dither amplitude from 0.3 to 0.4 (no threshold in this range). \
+         For runs from rest, the dither quenches at no dither amplitude from 0.3 to 0.4."
     );
     // Several intervals, and a branch that turns back.
     let law = DECREASING.map(|change| ["--set", change]).concat();
@@ -242,10 +242,10 @@ fn thresholds_answer_with_the_number() {
             ["0.5", "10.5"],
             &with(&["--from-rest", "--from-squeal"])
         ),
-        "The base response is stable up to dither.amplitude = 4.32239 (neimark-sacker, subcritical: the motion jumps) and from \
-         dither.amplitude = 9.90021 on (grazing). \
-         For runs from rest, which end quiet without dither, the motion stays quiet up to dither.amplitude = 2.86785 and from dither.amplitude = 9.90021 on (grazing). \
-         For runs from the undithered limit cycle, the dither quenches from dither.amplitude = 9.90021 on (grazing)."
+        "The base response is stable up to the dither amplitude 4.322 (neimark-sacker, subcritical: the motion jumps) and from \
+         9.9 on (grazing). \
+         For runs from rest, which end quiet without dither, the motion stays quiet up to the dither amplitude 2.868 and from 9.9 on (grazing); \
+         for runs from the undithered limit cycle, the dither quenches from the dither amplitude 9.9 on (grazing)."
     );
     assert_eq!(
         sentence(
@@ -254,12 +254,12 @@ fn thresholds_answer_with_the_number() {
             ["1e-4", "3e-3"],
             &with(&["--set", "dither.frequency_ratio=1"])
         ),
-        "The base response is stable up to dither.amplitude = 0.0015724 (fold, opens towards smaller \
-         dither.amplitude). There it turns back; beyond, runs end on another motion."
+        "The base response is stable up to the dither amplitude 0.001572 (fold, opens towards smaller \
+         dither amplitude)."
     );
     let drive = sentence("drive.toml", "belt.belt_velocity_m_per_s", ["0.005", "0.04"], &[]);
     assert!(
-        drive.starts_with("Steady sliding becomes stable at belt.belt_velocity_m_per_s = 0.02")
+        drive.starts_with("Steady sliding becomes stable at the belt velocity 0.02")
             && drive.contains("ceases to grow (supercritical: the vibration grows from zero)"),
         "{drive}"
     );

@@ -304,7 +304,7 @@ fn a_gap_between_stable_responses_is_not_stable() {
         assert!((ends[0] - 0.990_002).abs() < 1e-6 && (ends[1] - 0.992_43).abs() < 2e-5, "{gap}");
         assert_eq!(found["local"], Json::Array(Vec::new()));
         let sentence = found["sentence"].as_str().expect("words");
-        assert!(sentence.contains("up to dither.amplitude = 0.990002 and from"), "{sentence}");
+        assert!(sentence.contains("up to the dither amplitude 0.99 and from"), "{sentence}");
     }
 }
 

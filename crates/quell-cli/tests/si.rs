@@ -211,7 +211,7 @@ fn runs_are_classified_without_a_base_response() {
     let with = place.good(&ask("35", &["--from-rest"]));
     assert!((value(&without) / value(&with) - 1.0).abs() < 1e-4);
     let printed = without["sentence"].as_str().expect("words");
-    assert!(printed.starts_with("At dither.amplitude_n = 38 N the base response was not found: the base response ends at 98"), "{printed}");
+    assert!(printed.starts_with("At the dither amplitude 38 N the base response was not found: the base response ends at 98"), "{printed}");
     let (found, status) = place.json(&ask("38", &[]));
     assert_eq!((status, &found["errors"][0]["key"]), (1, &"thresholds".into()));
     assert!(found.to_string().contains("--from-rest"), "{found}");

@@ -207,7 +207,7 @@ def test_simulations_have_every_contact(hoffmann: quell.System, belt: quell.Belt
     assert float(dataset["velocity_x"][0]) == 0.1 and dataset["pad_friction"].dims == ("time",)
     assert float(dataset["time"][-1]) == 60.0
     assert np.allclose(dataset["x"][-1], done.final["state"][0], rtol=0, atol=1e-12)
-    assert "100 periods" in hoffmann.simulate(samples=False).sentence
+    assert "100 periods" in hoffmann.simulate(samples=False).notes[0]
     with pytest.raises(quell.StudyError, match="did you mean velocity.x"):
         hoffmann.simulate(1, start={"velocty.x": 1})
     with pytest.raises(quell.StudyError, match="start"):

@@ -99,6 +99,11 @@ impl NamedParameter<'_> {
 
     /// "from the load 1 (fold) to 2 (flip)", "from the load 1 on (fold)", "up to the load 2 (flip)".
     fn interval<T>(&self, interval: &Interval<T>) -> String {
+        self.interval_of(interval, |limit| self.value(limit))
+    }
+
+    /// [`Self::interval`] with a first value in these words.
+    fn interval_of<T>(&self, interval: &Interval<T>, value: impl Fn(&Limit) -> String) -> String {
         let Interval { from, to, .. } = interval;
         let kind = |limit: &Limit| {
             limit.kind.as_ref().map_or_else(String::new, |kind| format!(" ({kind})"))
@@ -112,18 +117,22 @@ impl NamedParameter<'_> {
                     self.number(to)
                 )
             }
-            (false, true) => format!("from {} on{}", self.value(from), kind(from)),
-            (true, false) => format!("up to {}{}", self.value(to), kind(to)),
+            (false, true) => format!("from {} on{}", value(from), kind(from)),
+            (true, false) => format!("up to {}{}", value(to), kind(to)),
             (false, false) => {
-                let (first, last) = (self.value(from), self.number(to));
+                let (first, last) = (value(from), self.number(to));
                 format!("from {first}{} to {last}{}", kind(from), kind(to))
             }
         }
     }
 
     fn intervals<'b, T: 'b>(&self, list: impl IntoIterator<Item = &'b Interval<T>>) -> String {
-        let each: Vec<String> = list.into_iter().map(|interval| self.interval(interval)).collect();
-        listed(&each, "and")
+        // The parameter is named once.
+        let each = list.into_iter().enumerate().map(|(place, interval)| match place {
+            0 => self.interval(interval),
+            _ => self.interval_of(interval, |limit| self.number(limit)),
+        });
+        listed(&each.collect::<Vec<_>>(), "and")
     }
 
     /// The range that all intervals cover: "load from 1 to 2".
