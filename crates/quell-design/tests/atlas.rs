@@ -181,7 +181,7 @@ fn groups_scale_out() {
         Belt::new(0.01, 0.75 * scale / fall, 0.5 * scale, law, vec![dither]).expect("a belt")
     };
     let one = Belt::new(0.01, 0.75, 0.5, law, vec![dither(0.0, 0.0)]).expect("a belt");
-    let one = AtlasPoint::of_belt(&one).expect("inside");
+    let one = AtlasPoint::of(&one).expect("inside");
     // ζ_f = F Δμ/(2 v_m) = 0.75 · 0.2/0.5.
     assert!((one.friction_damping - 0.3).abs() < 1e-15, "{one:?}");
     assert!((one.relative_damping - 1.0 / 30.0).abs() < 1e-15, "{one:?}");
@@ -191,7 +191,7 @@ fn groups_scale_out() {
         belt(7.0, 1.0, dither(0.0, 0.0)),
         belt(2.0, 3.0, dither(0.1, 1.0)),
     ] {
-        let other = AtlasPoint::of_belt(&belt).expect("inside");
+        let other = AtlasPoint::of(&belt).expect("inside");
         assert!((other.friction_damping / one.friction_damping - 1.0).abs() < 1e-14, "{other:?}");
         assert!((other.relative_damping / one.relative_damping - 1.0).abs() < 1e-14, "{other:?}");
         assert!((other.relative_velocity / one.relative_velocity - 1.0).abs() < 1e-14);
@@ -204,7 +204,7 @@ fn groups_scale_out() {
     };
     let (with, without) = (viscous(0.01, 0.04), viscous(0.01 + 0.5 * 0.75 * 0.04, 0.0));
     let [with_point, without_point] =
-        [&with, &without].map(|belt| AtlasPoint::of_belt(belt).expect("inside"));
+        [&with, &without].map(|belt| AtlasPoint::of(belt).expect("inside"));
     assert!((with_point.relative_damping / without_point.relative_damping - 1.0).abs() < 1e-14);
     let [one, other] = [&with, &without].map(|belt| quench(&belt.system(), 0).expect("a response"));
     let [one, other] = [&one, &other].map(|found| found.branch.changes[0].amplitude);

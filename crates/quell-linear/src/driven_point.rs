@@ -89,7 +89,7 @@ impl<'w> DrivenPoint<'w> {
     ///
     /// # Errors
     /// [`NoPeriodicResponse`].
-    pub fn of_belt(
+    pub fn of_one_mass(
         waveform: &'w Waveform,
         frequency_ratio: f64,
         damping_ratio: f64,
@@ -215,7 +215,7 @@ mod tests {
     fn the_motion_obeys_its_equation() {
         for waveform in Waveform::NAMED {
             let damping_ratio = 0.03;
-            let point = DrivenPoint::of_belt(waveform, 2.7, damping_ratio).expect("a motion");
+            let point = DrivenPoint::of_one_mass(waveform, 2.7, damping_ratio).expect("a motion");
             let balance = PointOutput {
                 force: -1.0,
                 displacement: 1.0,

@@ -56,7 +56,7 @@ pub fn linear_cost(dither: &Dither, damping_ratio: f64) -> Result<LinearCost, No
     if !dither.waveform.is_periodic() {
         return Err(NoLinearCost::Noise);
     }
-    let point = DrivenPoint::of_belt(&dither.waveform, dither.frequency_ratio, damping_ratio)
+    let point = DrivenPoint::of_one_mass(&dither.waveform, dither.frequency_ratio, damping_ratio)
         .map_err(NoLinearCost::NoResponse)?;
     let outputs = point.outputs(&[PointOutput::DISPLACEMENT, PointOutput::VELOCITY]);
     let [displacement, velocity] = [&outputs[0], &outputs[1]];

@@ -14,7 +14,7 @@ use quell_zoo::dither::{normal, tangential};
 use quell_zoo::law;
 
 fn of(belt: &Belt) -> DescribingFunction {
-    DescribingFunction::of_belt(belt, Averaging::Limit).expect("an average")
+    DescribingFunction::of_one_mass(belt, Averaging::Limit).expect("an average")
 }
 
 /// The cubic law without dither: N₁ = a₁ + 3a₃v₀² + ¾a₃a², and 4μ_s√(1 − (v₀/a)²)/(πa) for the sign where a > v₀.
@@ -196,6 +196,6 @@ fn undefined_and_refused() {
         envelope: None,
     });
     let three = belt(0.005, 0.1, law::stribeck(), three.to_vec());
-    let refused = DescribingFunction::of_belt(&three, Averaging::Limit);
+    let refused = DescribingFunction::of_one_mass(&three, Averaging::Limit);
     assert!(matches!(refused, Err(AveragingError::TooManyGroups { groups: 3, largest: 2 })));
 }

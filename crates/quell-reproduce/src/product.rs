@@ -35,7 +35,7 @@ impl Product {
     }
 
     /// A figure of a disc.
-    pub(super) fn of_disc(figure: Figure, caption: impl Into<String>, study: &DiscStudy) -> Self {
+    pub(super) fn about(figure: Figure, caption: impl Into<String>, study: &DiscStudy) -> Self {
         Self::disc_table(caption, study).drawn(figure)
     }
 

@@ -49,7 +49,7 @@ pub fn schema() -> Json {
         .into();
     let kind = |kind: DocumentKind| {
         let name = kind.section().path();
-        let dither = table::one_or_several(&reference(&format!("dither_of_{name}")));
+        let dither = table::one_or_several(&reference(&format!("{name}_dither")));
         json!({
             "required": [name],
             "properties": { "dither": dither },
@@ -124,7 +124,7 @@ fn relations(definitions: &mut Map<String, Json>) {
     let periodic: Vec<&str> = DITHER_FREQUENCY_RATIO.keys().chain(["phase"]).collect();
     let wave = waveform::noise_or_periodic(&periodic);
     definitions.insert(
-        "dither_of_belt".to_owned(),
+        "belt_dither".to_owned(),
         json!({ "allOf": [
             { "required": ["direction", "waveform"],
                 "properties": table::properties(Section::Dither, DocumentKind::Belt),
@@ -133,12 +133,12 @@ fn relations(definitions: &mut Map<String, Json>) {
         ] }),
     );
     definitions.insert(
-        "dither_of_system".to_owned(),
+        "system_dither".to_owned(),
         json!({ "allOf": [{ "required": ["waveform"] }, one_of(&frequency), wave] }),
     );
     let properties = table::properties(Section::Dither, DocumentKind::Disc);
     definitions.insert(
-        "dither_of_disc".to_owned(),
+        "disc_dither".to_owned(),
         json!({
             "type": "object",
             "description": "modulation of the friction of every load",

@@ -24,10 +24,10 @@ pub(crate) fn refused_where_averaged(study: &SystemStudy, verb: &str) -> Result<
         return Ok(());
     };
     // The system of a belt has the document of the belt.
-    let of_system = [format!("contact.{}", contact.name), format!("contact.{}.", contact.name)];
-    let of_belt = ["belt".to_owned(), String::new()];
+    let by_contact = [format!("contact.{}", contact.name), format!("contact.{}.", contact.name)];
+    let by_table = ["belt".to_owned(), String::new()];
     let is_belt = study.document().get("belt").is_some();
-    let [surface, friction] = if is_belt { of_belt } else { of_system };
+    let [surface, friction] = if is_belt { by_table } else { by_contact };
     let (key, value) = match contact.tangential_stiffness {
         Some(stiffness) => (format!("{surface}.tangential_stiffness"), Json::from(stiffness)),
         None => (format!("{friction}friction.law"), Json::from(contact.friction.kind().name())),

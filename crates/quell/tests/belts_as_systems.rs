@@ -66,7 +66,7 @@ fn friction_of_the_contact() {
         let found = answer(&system(LIGHT, dither), |verbs| verbs.friction(Some(&at), false));
         let contact = &found["contacts"][0];
         let study = belt(LIGHT, dither, "");
-        let motion = quell_linear::averaging::AveragedLaw::of_belt(
+        let motion = quell_linear::averaging::AveragedLaw::of_one_mass(
             study.belt(),
             0.12,
             quell_linear::averaging::Averaging::FiniteR,

@@ -62,7 +62,8 @@ fn averages_are_those_of_the_definition() {
         // The reference is of the limit R → ∞.
         let at = numbers(&row["slip_velocity"]);
         let averaged = |v: f64| {
-            let law = AveragedLaw::of_belt(study.belt(), v, Averaging::Limit).expect("a motion");
+            let law =
+                AveragedLaw::of_one_mass(study.belt(), v, Averaging::Limit).expect("a motion");
             law.at(v).expect("an average")
         };
         let limit: Vec<Effective> = at.iter().map(|v| averaged(*v)).collect();

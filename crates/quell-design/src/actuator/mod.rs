@@ -135,7 +135,7 @@ mod tests {
     }
 
     fn point(waveform: &Waveform, frequency: f64) -> DrivenPoint<'_> {
-        DrivenPoint::of_belt(waveform, frequency, 0.02).expect("a motion")
+        DrivenPoint::of_one_mass(waveform, frequency, 0.02).expect("a motion")
     }
 
     fn close(value: f64, exact: f64) {

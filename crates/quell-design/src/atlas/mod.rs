@@ -22,7 +22,7 @@
 //! # Accuracy and limits
 //!
 //! The nodes are exact to the digits printed. The interpolation has the errors in the file, measured at random points
-//! ([`AtlasErrors`]); an answer states the change of amplitude that they can cause. The range is that of [`AtlasPoint::of_belt`].
+//! ([`AtlasErrors`]); an answer states the change of amplitude that they can cause. The range is that of [`AtlasPoint::of`].
 //! The answer holds for the base response: a run from rest or from squeal may need more amplitude.
 //!
 //! | file | contents |

@@ -108,7 +108,7 @@ impl AtlasPoint {
     ///
     /// # Errors
     /// Every key that places the belt outside.
-    pub fn of_belt(belt: &Belt) -> Result<Self, Vec<OutsideAtlas>> {
+    pub fn of(belt: &Belt) -> Result<Self, Vec<OutsideAtlas>> {
         let mut outside = Vec::new();
         let friction = belt.friction();
         let law = AtlasLaw::of(friction).map_err(|(key, allowed)| {

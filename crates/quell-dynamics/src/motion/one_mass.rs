@@ -258,7 +258,7 @@ impl<'a> MassView<'a> {
         let start = units.start(start);
         let belt = mass.belt();
         let (unit, clock) = (belt.friction().velocity_scale(), Clock::at(start.time));
-        let (tangential, normal) = Forcing::of_belt(belt, unit, clock);
+        let (tangential, normal) = Forcing::acting(belt, unit, clock);
         let mut rates = [1.0; ORDER + 1];
         for k in 1..=ORDER {
             rates[k] = rates[k - 1] * mass.rate();

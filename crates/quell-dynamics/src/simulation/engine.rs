@@ -75,7 +75,7 @@ impl<'a> Engine<'a> {
         let belt_velocity = belt.belt_velocity() / unit;
         let damping = 2.0 * belt.damping_ratio();
         let slip = (belt.belt_velocity() - start.velocity) / unit;
-        let (tangential, normal) = Forcing::of_belt(belt, unit, clock);
+        let (tangential, normal) = Forcing::acting(belt, unit, clock);
         let stiction = Stiction {
             damper: damping * belt_velocity,
             belt_velocity,

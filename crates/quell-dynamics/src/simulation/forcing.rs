@@ -178,7 +178,7 @@ impl Forcing {
 
     /// The tangential dithers of a belt and its normal load, in units of `unit`, at the moment `clock`.
     #[inline(always)]
-    pub(crate) fn of_belt(belt: &Belt, unit: f64, clock: Clock) -> (Self, Self) {
+    pub(crate) fn acting(belt: &Belt, unit: f64, clock: Clock) -> (Self, Self) {
         let load = belt.normal_load() / unit;
         let forcing = |direction, mean| Self::new(belt.dithers(), direction, mean, unit, clock);
         (forcing(Direction::Tangential, 0.0), forcing(Direction::Normal, load))

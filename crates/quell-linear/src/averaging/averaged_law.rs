@@ -1,6 +1,6 @@
 //! The averaged friction law of one contact: its mean over a fast motion that is frozen, as a function of the slow slip velocity.
 //!
-//! In the limit of high frequency the fast motion of a belt is that of its dithers alone ([`AveragedLaw::of_belt`]). At finite R, and
+//! In the limit of high frequency the fast motion of a belt is that of its dithers alone ([`AveragedLaw::of_one_mass`]). At finite R, and
 //! of a contact of a system, it is what the structure makes of all dithers there ([`super::FastInputs`]): the mean is T̄/N = ⟨μ(v + a)(1 +
 //! Ñ/N)⟩ under the mean load N. Under noise slip and load are Gaussian, and ⟨μ(v + a)Ñ⟩ = ⟨aÑ⟩⟨μ′(v + a)⟩ (Stein's identity).
 

@@ -92,7 +92,7 @@ impl AveragedLaw {
     ///
     /// # Errors
     /// [`AveragingError`] where the fast motion has no value.
-    pub fn of_belt(belt: &Belt, v: f64, averaging: Averaging) -> Result<Self, AveragingError> {
+    pub fn of_one_mass(belt: &Belt, v: f64, averaging: Averaging) -> Result<Self, AveragingError> {
         BeltAverages::new(belt, v, averaging)?.law(None)
     }
 }
@@ -104,6 +104,6 @@ impl FastMotion {
     /// [`AveragingError`] where the structure has no response, or where dither acts in both directions and the friction level that
     /// drives the normal dither cannot be computed.
     pub fn of(belt: &Belt, v: f64, averaging: Averaging) -> Result<Self, AveragingError> {
-        Ok(AveragedLaw::of_belt(belt, v, averaging)?.motion().clone())
+        Ok(AveragedLaw::of_one_mass(belt, v, averaging)?.motion().clone())
     }
 }

@@ -76,7 +76,7 @@ impl Criterion {
 /// [`AveragingError`], in particular [`AveragingError::SetValued`] for a belt at rest without tangential dither.
 pub fn criterion(belt: &Belt, averaging: Averaging) -> Result<Criterion, AveragingError> {
     let v = belt.belt_velocity();
-    let law = AveragedLaw::of_belt(belt, v, averaging)?;
+    let law = AveragedLaw::of_one_mass(belt, v, averaging)?;
     let effective = law.at(law.motion().at_corner(v)?)?;
     Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective))
 }

@@ -89,9 +89,9 @@ impl DescribingFunction {
     ///
     /// # Errors
     /// As [`DescribingFunction::new`], and where the fast motion has no value.
-    pub fn of_belt(belt: &Belt, averaging: Averaging) -> Result<Self, AveragingError> {
+    pub fn of_one_mass(belt: &Belt, averaging: Averaging) -> Result<Self, AveragingError> {
         let velocity = belt.belt_velocity();
-        Self::new(AveragedLaw::of_belt(belt, velocity, averaging)?, velocity)
+        Self::new(AveragedLaw::of_one_mass(belt, velocity, averaging)?, velocity)
     }
 
     /// Mean and equivalent gain at an amplitude a > 0 of the slow slip velocity.

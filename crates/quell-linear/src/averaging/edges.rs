@@ -196,7 +196,7 @@ pub fn unstable_bands(
     let law = belt.friction();
     let motion = |v: f64| FastMotion::of(belt, v, averaging);
     let criterion = |v: f64| -> Result<Criterion, AveragingError> {
-        let effective = AveragedLaw::of_belt(belt, v, averaging)?.at(v)?;
+        let effective = AveragedLaw::of_one_mass(belt, v, averaging)?.at(v)?;
         Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective))
     };
     let value = |v: f64| criterion(v).map(|found| found.value);

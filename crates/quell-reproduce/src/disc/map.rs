@@ -192,7 +192,7 @@ fn draw(
         .legend(SharedLegend::Below)
         .size(Size::Frame(390.0, 280.0));
     let study = &studies[0].0;
-    Ok(Product::of_disc(figure, caption, study).by(&[Task::Stability]).table(table))
+    Ok(Product::about(figure, caption, study).by(&[Task::Stability]).table(table))
 }
 
 /// Whether frictions are spaced by a ratio.

@@ -58,5 +58,5 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
          $φ$($r$) cos $jθ$ with unit mean square over the plate (red: up, blue: down, black: nodes); $k^2$ is the frequency parameter."
     );
     let caption = source.caption(&shows, "");
-    Ok(Product::of_disc(figure, caption, &study).by(&[Task::Modes]).table(table))
+    Ok(Product::about(figure, caption, &study).by(&[Task::Modes]).table(table))
 }

@@ -49,5 +49,5 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         "Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and their envelopes.",
         "The dissertation gives no numbers.",
     );
-    Ok(Product::of_disc(figure, caption, &study).by(&[]).table(table))
+    Ok(Product::about(figure, caption, &study).by(&[]).table(table))
 }

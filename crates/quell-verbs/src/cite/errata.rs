@@ -41,10 +41,10 @@ pub fn markdown(root: &str) -> String {
         correct.len(),
         correct.join(", ")
     );
-    let belt = |correction: &&Correction| !of_disc(correction);
+    let belt = |correction: &&Correction| !is_about_disc(correction);
     for (title, corrections) in [
         ("Chapters 2 to 4: the belt", CORRECTIONS.iter().filter(belt).collect::<Vec<_>>()),
-        ("Chapter 5: the disc", CORRECTIONS.iter().filter(|entry| of_disc(entry)).collect()),
+        ("Chapter 5: the disc", CORRECTIONS.iter().filter(|entry| is_about_disc(entry)).collect()),
     ] {
         let _ = write!(
             page,
@@ -66,7 +66,7 @@ pub fn markdown(root: &str) -> String {
 }
 
 /// Whether a correction belongs to chapter 5.
-fn of_disc(correction: &Correction) -> bool {
+fn is_about_disc(correction: &Correction) -> bool {
     matches!(correction.bears, Bears::Disc(_))
 }
 

@@ -108,7 +108,7 @@ impl SlidingGrowth {
     }
 
     /// That of a disc, of which a rate of the equations is `rate` in the units of the study.
-    pub fn of_disc(found: Growth, rate: f64) -> Self {
+    pub fn in_units(found: Growth, rate: f64) -> Self {
         let Growth { rate: growth, error, frequency } = found;
         Self::alone(Growth {
             rate: rate * growth,

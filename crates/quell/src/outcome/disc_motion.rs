@@ -54,6 +54,6 @@ impl Presented<DiscSetup> for DiscSimulation {
     fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
         // The system of a disc has the friction of its dither: without it, it is no disc without dither.
         let figure = figure_with(&self.motion, &self.system, false)?;
-        Some(figure.map(|figure| picture::disc::of_disc(figure, study)))
+        Some(figure.map(|figure| picture::disc::of_motion(figure, study)))
     }
 }

@@ -142,7 +142,7 @@ fn signs(mode: &PlateMode, inner: f64) -> Vec<Note> {
 }
 
 /// The picture of a disc that was computed as a system, with the caption of the disc.
-pub fn of_disc(figure: Figure, study: &DiscStudy) -> Figure {
+pub fn of_motion(figure: Figure, study: &DiscStudy) -> Figure {
     figure.caption(disc_caption(study))
 }
 

@@ -15,8 +15,8 @@ const MOST_NAMES: usize = 12;
 /// What no verb of the report examines.
 pub(super) fn of(study: &Study, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
     let mut all = match study.disc() {
-        Ok(disc) => of_disc(&disc),
-        Err(_) => of_system(&study.system(), answers),
+        Ok(disc) => about_waves(&disc),
+        Err(_) => about_motions(&study.system(), answers),
     };
     all.extend(windows(answers));
     all.extend(amplitudes_of_zero(study));
@@ -24,7 +24,7 @@ pub(super) fn of(study: &Study, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
     all
 }
 
-fn of_disc(study: &DiscStudy) -> Vec<Unexamined> {
+fn about_waves(study: &DiscStudy) -> Vec<Unexamined> {
     let disc = study.disc();
     let modes = disc.modes();
     let most = modes.iter().map(|mode| mode.diameters).max().unwrap_or(0);
@@ -68,7 +68,7 @@ fn of_disc(study: &DiscStudy) -> Vec<Unexamined> {
     all
 }
 
-fn of_system(study: &SystemStudy, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
+fn about_motions(study: &SystemStudy, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
     let start =
         answers.iter().find(|answer| answer.verb == "response").map(|answer| answer.start.as_str());
     let mut all = Vec::new();

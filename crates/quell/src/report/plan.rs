@@ -57,7 +57,7 @@ pub(super) fn planned(study: &Study) -> Vec<ReportStep> {
         // The exponents of small motions decide about a disc.
         steps.extend(disc.design().filter(|_| is_dithered(study)).map(|_| design(SMALL)));
     } else {
-        steps.extend(of_system(study, &study.system()));
+        steps.extend(about_motions(study, &study.system()));
     }
     if study.uncertainty().is_some() {
         steps.push(ReportStep::new(
@@ -83,7 +83,7 @@ pub(super) fn is_dithered(study: &Study) -> bool {
 }
 
 /// The verbs of a belt or a system about its motions and its dither.
-fn of_system(declared: &Study, study: &SystemStudy) -> Vec<ReportStep> {
+fn about_motions(declared: &Study, study: &SystemStudy) -> Vec<ReportStep> {
     let start = &start_in_words(study, &StateNumbers::new());
     let mut steps = vec![
         ReportStep::new("response", "Steady response", start, |verbs| {

@@ -57,7 +57,7 @@ impl PointComputation for SlidingGrowth {
             Subject::System(system) => Self::averaged(system),
             Subject::Disc(of) => {
                 let found = disc_growth(&of.disc, of.parts, &mut prepared)?;
-                Ok(Self::of_disc(found, of.rate))
+                Ok(Self::in_units(found, of.rate))
             }
         };
         points.iter().map(|point| &point.subject).map(one).collect()
@@ -79,7 +79,7 @@ impl PointComputation for UnditheredGrowth {
             Subject::System(system) => Ok(Self(SlidingGrowth::undithered(system)?)),
             Subject::Disc(of) => {
                 let found = disc_growth(&of.disc.undithered(), of.parts, &mut prepared)?;
-                Ok(Self(SlidingGrowth::of_disc(found, of.rate)))
+                Ok(Self(SlidingGrowth::in_units(found, of.rate)))
             }
         };
         points.iter().map(|point| &point.subject).map(one).collect()

@@ -73,11 +73,11 @@ fn of_modes(listed: &Listed) -> Option<(usize, f64)> {
 }
 
 /// κ of every mode: its own, or that of the disc.
-pub(super) fn stiffening(source: &ModeSource, of_disc: f64, count: usize) -> Vec<f64> {
+pub(super) fn stiffening(source: &ModeSource, of_plate: f64, count: usize) -> Vec<f64> {
     match source {
-        ModeSource::Plate(_) => vec![of_disc; count],
+        ModeSource::Plate(_) => vec![of_plate; count],
         ModeSource::List(listed) | ModeSource::File { listed, .. } => {
-            listed.modes.iter().map(|mode| mode.centrifugal.unwrap_or(of_disc)).collect()
+            listed.modes.iter().map(|mode| mode.centrifugal.unwrap_or(of_plate)).collect()
         }
     }
 }

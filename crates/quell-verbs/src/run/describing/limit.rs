@@ -25,11 +25,11 @@ impl LimitAveragedCycles {
     pub(super) fn of(system: &System, largest: f64) -> Option<Result<Self, String>> {
         let mass = system.one_averaged_mass().filter(|_| system.is_dithered())?;
         let displacement = mass.displacement().abs();
-        Some(Self::of_belt(mass.belt(), largest, displacement).map_err(|why| why.to_string()))
+        Some(Self::of_mass(mass.belt(), largest, displacement).map_err(|why| why.to_string()))
     }
 
-    fn of_belt(belt: &Belt, largest: f64, displacement: f64) -> Result<Self, AveragingError> {
-        let function = DescribingFunction::of_belt(belt, Averaging::Limit)?;
+    fn of_mass(belt: &Belt, largest: f64, displacement: f64) -> Result<Self, AveragingError> {
+        let function = DescribingFunction::of_one_mass(belt, Averaging::Limit)?;
         // 2ζ + FN₁.
         let balance = |gain| Ok::<f64, AveragingError>(belt.damping_rate(gain, belt.normal_load()));
         let cycles = function.cycles(largest, balance)?;

@@ -70,7 +70,7 @@ pub(crate) fn at_end(complaint: Complaint, key: &str, path: &str) -> Complaint {
 ///
 /// # Errors
 /// A complaint about uncertain numbers that the design gives.
-pub(crate) fn least_dither_of_systems(
+pub(crate) fn least_system_dithers(
     study: &dyn StudyWithDesign,
     asked: &Design,
     numbers: &DesignNumbers,

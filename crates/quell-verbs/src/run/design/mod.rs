@@ -30,7 +30,7 @@ pub use found::{
     LeastDitherFound,
 };
 pub(crate) use found::{DesignNumbers, TriedDither};
-pub(crate) use least::{asked, at_end, least_dither, least_dither_of_systems, without_amplitude};
+pub(crate) use least::{asked, at_end, least_dither, least_system_dithers, without_amplitude};
 pub use slow_response::{LargestSlowResponse, SlowResponse};
 pub use study_with_design::{FrequencyScale, StudyWithDesign};
 pub(crate) use waveform::{system_with_waveform, with_wave};

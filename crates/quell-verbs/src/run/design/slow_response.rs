@@ -38,7 +38,7 @@ fn strongest(spectrum: &Spectrum) -> Option<Peak> {
 }
 
 /// The response of a system on its base response.
-pub(super) fn of_system(study: &SystemStudy, system: &System) -> Result<SlowResponse, String> {
+pub(super) fn found(study: &SystemStudy, system: &System) -> Result<SlowResponse, String> {
     let plan = plan_of(study, ResponseRequest::default()).map_err(|why| why.to_string())?;
     let orbit = base_response(system, GROWTH_STEPS).map_err(|why| why.to_string())?;
     let start = MotionStart { time: 0.0, state: orbit.state };

@@ -138,7 +138,7 @@ impl StudyWithDesign for SystemStudy {
         waveform: &Waveform,
         numbers: &[(&str, f64)],
     ) -> Result<SlowResponse, String> {
-        slow_response::of_system(self, &self.system_with(waveform, numbers)?)
+        slow_response::found(self, &self.system_with(waveform, numbers)?)
     }
 
     fn uncertain(&self) -> Option<&Uncertainty> {

@@ -137,7 +137,7 @@ impl ContactAverages<'_> {
             return None;
         }
         let in_the_limit = |belt: &Belt, v: f64| {
-            let law = AveragedLaw::of_belt(belt, v, Averaging::Limit);
+            let law = AveragedLaw::of_one_mass(belt, v, Averaging::Limit);
             law.and_then(|law| law.at(v)).map_err(|why| why.to_string())
         };
         let belt = self.limit.as_ref().map_err(Clone::clone);

@@ -9,7 +9,7 @@ use super::has_equations;
 use crate::complaint::{Complaint, Failure};
 use crate::run::design::{
     DesignNumber, DesignNumbers, LeastDitherFound, TriedDither, asked, at_end,
-    least_dither_of_systems, system_with_waveform, without_amplitude,
+    least_system_dithers, system_with_waveform, without_amplitude,
 };
 use crate::study::{Design, DesignRange, SystemStudy};
 
@@ -99,7 +99,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         Ok(SampledQuiet { averaged: Box::new(exactly(false)), exact: Box::new(exactly(true)) })
     };
     let observe = study.observe();
-    least_dither_of_systems(study, asked, &numbers, &systems, (input, &observe), &samples)
+    least_system_dithers(study, asked, &numbers, &systems, (input, &observe), &samples)
 }
 
 /// The study with the dither at a place, and its name; without a name as it is.
