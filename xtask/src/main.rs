@@ -13,6 +13,7 @@ mod manifest;
 mod meaning;
 mod names;
 mod package;
+mod places;
 mod python;
 mod ratchet;
 mod source;
