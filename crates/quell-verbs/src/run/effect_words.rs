@@ -26,8 +26,7 @@ impl EffectWords<'_> {
             Effect::Reduces => format!("this dither reduces the vibration: {residual}"),
             Effect::Increases => format!("this dither increases the vibration: {residual}"),
             Effect::Causes => format!(
-                "this dither causes vibration: {body} is quiet without it, and with it vibrates below {band} with an \
-                 amplitude of {amplitude}"
+                "this dither causes vibration of amplitude {amplitude} below {band}: {body} is quiet without it"
             ),
             Effect::Quiet => {
                 format!("{body} is quiet with and without this dither: there is nothing to quench")
@@ -45,7 +44,7 @@ pub(crate) fn residual_in_words(residual_vibration: Option<f64>, band: &str) -> 
         Some(level) => format!(" ({level:.1} dB)"),
         None => String::new(),
     };
-    format!("the residual vibration E below {band} is {}{level}", percent(ratio))
+    format!("the residual vibration below {band} is {}{level}", percent(ratio))
 }
 
 /// 20 lg E, in dB; `None` if E is zero.

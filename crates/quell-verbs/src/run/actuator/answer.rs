@@ -98,7 +98,7 @@ impl ActuatorFound {
                     let margin = match best.margin() {
                         Ok(margin) if margin > MOST_MARGIN => UNBOUNDED_MARGIN.to_owned(),
                         Ok(margin) => {
-                            format!("{} times the least amplitude that quenches", digits(margin))
+                            format!("{} times the least amplitude", digits(margin))
                         }
                         Err(why) => why,
                     };
@@ -133,7 +133,13 @@ impl ActuatorFound {
 
     /// The changes of the limit that binds.
     pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
-        self.changes_in_words(study).into_iter().collect()
+        let sure = self
+            .sure_from()
+            .filter(|sure| self.coverage.sufficient.iter().any(|band| band.ends.0 < *sure));
+        let sure = sure.map(|sure| {
+            format!("Averaging is unsure below {}.", study.frequency_scale().with_noun(sure))
+        });
+        sure.into_iter().chain(self.changes_in_words(study)).collect()
     }
 
     /// The frequency at which the dither repeats as often as the vibration.
@@ -141,21 +147,22 @@ impl ActuatorFound {
         Some(self.slow? * f64::from(self.waveform.cycles()))
     }
 
+    /// The frequency from which averaging is sure.
+    fn sure_from(&self) -> Option<f64> {
+        Some(FAR * self.slow_dither()?)
+    }
+
     /// Where averaging does not hold or is unsure, after a comma; empty where it is sure.
     fn unsure_in_words(&self, study: &SystemStudy) -> String {
         let Some(slow) = self.slow_dither() else { return String::new() };
-        let (holds_from, sure_from) = (BAND_END * slow, FAR * slow);
+        let holds_from = BAND_END * slow;
+        let sure_from = FAR * slow;
         let scale = study.frequency_scale();
         let unsure = self.coverage.sufficient.iter().any(|band| band.ends.0 < sure_from);
         match (self.range.0 < holds_from, unsure) {
             (false, false) => String::new(),
-            (true, false) => format!(", which does not hold below {}", scale.with_noun(holds_from)),
+            (true, _) => format!(", which does not hold below {}", scale.with_noun(holds_from)),
             (false, true) => format!(", which is unsure below {}", scale.with_noun(sure_from)),
-            (true, true) => format!(
-                ", which does not hold below {} and is unsure below {}",
-                scale.with_noun(holds_from),
-                scale.with_unit(sure_from)
-            ),
         }
     }
 

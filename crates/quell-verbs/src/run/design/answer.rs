@@ -137,49 +137,30 @@ impl LeastDitherFound {
         match &self.answer().answer {
             Ok(found) => {
                 let critical = &found.critical;
-                let decides = match &critical.worst {
-                    Some(worst) if !worst.is_empty() => {
-                        format!("; it is decided{}", self.point_in_words(worst))
-                    }
-                    Some(_) => String::new(),
+                let smallest = match &critical.worst {
+                    Some(_) => "",
                     None => {
                         "; this smallest allowed amplitude is quiet everywhere, and less, or no dither, may do"
-                            .to_owned()
                     }
                 };
-                let binding = self.binding(critical);
-                let binds = if binding.is_empty() {
-                    String::new()
-                } else {
-                    format!("; {} at the limit", listed(&binding))
-                };
-                let largest = found.largest_multiplier();
                 let by = match study.asked().map_or(DesignStart::Local, |asked| asked.start) {
                     DesignStart::Local => "small motions about exact responses",
                     DesignStart::Rest => "exact responses and runs from rest",
                     DesignStart::Squeal => "exact responses and runs from squeal",
                 };
-                let slow = self.slow_in_words(study);
+                let slow = self.residual_in_words();
                 let size = format!("{}{}", force(critical.amplitude), chosen(&critical.others));
-                let least = match (self.is_quiet() == Ok(true), slow.as_str()) {
-                    (true, "") => format!(
-                        "The least dither that is quiet in the whole range is a {waveform}{place} of amplitude {size}"
-                    ),
-                    (true, slow) => format!(
-                        "The least dither that is quiet in the whole range, a {waveform}{place} of amplitude {size},{slow}"
-                    ),
-                    (false, slow) => format!(
-                        "The least dither with which the motion stays in step in the whole range, a {waveform}{place} of amplitude \
-                         {size},{slow}"
-                    ),
+                let what = if self.is_quiet() == Ok(true) {
+                    "that is quiet"
+                } else {
+                    "with which the motion stays in step"
                 };
                 format!(
-                    "{least}{decides}{binds}. At {} it is verified by {by} at {} operating point{}: the largest multiplier is \
-                     {}.",
+                    "The least dither {what} in the whole range is a {waveform}{place} of amplitude {size}{slow}{smallest}. At {} it is \
+                     verified by {by} at {} operating point{}.",
                     force(found.verified_amplitude),
                     found.verified.len(),
-                    plural(found.verified.len() as u64),
-                    digits(largest)
+                    plural(found.verified.len() as u64)
                 )
             }
             Err(none) => {
@@ -190,7 +171,7 @@ impl LeastDitherFound {
                         force(part.amplitude),
                         chosen(&part.others)
                     );
-                    self.covered_in_words(&one, is_limited, study)
+                    self.covered_in_words(&one, is_limited)
                 });
                 let why = self.why(study, none);
                 let is_whole = self.is_covered_whole();
@@ -211,7 +192,7 @@ impl LeastDitherFound {
         }
     }
 
-    /// What the verified dither demands of the actuator and costs, the dither that is quiet in most samples, what a schedule saves, and on
+    /// What decides, what the verified dither demands of the actuator and costs, the dither that is quiet in most samples, what a schedule saves, and on
     /// what the amplitude depends most.
     pub fn notes(&self, study: &dyn StudyWithDesign) -> Vec<String> {
         let Ok(found) = &self.answer().answer else { return Vec::new() };
@@ -223,9 +204,18 @@ impl LeastDitherFound {
                 self.point_in_words(point)
             )
         });
-        let drive = self.drive_in_words(study, found.drive.as_ref());
+        let decides = found.critical.worst.as_ref().filter(|worst| !worst.is_empty());
+        let decides = decides
+            .map(|worst| format!("The least dither is decided{}.", self.point_in_words(worst)));
+        let binding = self.binding(&found.critical);
+        let binds = (!binding.is_empty()).then(|| format!("At the limit: {}.", listed(&binding)));
+        let largest = digits(found.largest_multiplier());
         let notes = [
-            drive,
+            decides,
+            binds,
+            self.slow_in_words(study),
+            Some(format!("The largest multiplier of the verified dither is {largest}.")),
+            self.drive_in_words(study, found.drive.as_ref()),
             self.confident_in_words(study),
             loss,
             self.schedule_in_words(study),

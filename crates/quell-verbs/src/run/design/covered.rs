@@ -17,12 +17,7 @@ impl LeastDitherFound {
 
     /// The part of the box that one dither serves, in words; empty where none is known.
     /// `is_larger` where the least amplitude exceeds a limit that this one keeps.
-    pub(super) fn covered_in_words(
-        &self,
-        one: &str,
-        is_larger: bool,
-        study: &dyn StudyWithDesign,
-    ) -> String {
+    pub(super) fn covered_in_words(&self, one: &str, is_larger: bool) -> String {
         let (Ok(part), Some(number)) = (&self.covered, self.over.first()) else {
             return String::new();
         };
@@ -35,8 +30,7 @@ impl LeastDitherFound {
             digits(part.largest_gap * number.per_unit)
         );
         let is_quiet = self.is_quiet() == Ok(true);
-        let slow = self.slow_in_words(study);
-        let leaves = if slow.is_empty() { String::new() } else { format!("; it{slow}") };
+        let leaves = self.residual_in_words();
         if part.is_whole() {
             let serves = match (is_quiet, is_larger) {
                 (true, true) => format!(" A larger amplitude does: a {one} is quiet and keeps"),

@@ -59,30 +59,34 @@ impl LeastDitherFound {
         }
     }
 
-    /// The response to a dither in the band of the vibration, in words; empty of other dithers.
-    pub(super) fn slow_in_words(&self, study: &dyn StudyWithDesign) -> String {
-        let Some(slow) = &self.slow else { return String::new() };
-        let LargestSlowResponse { response, point } = match slow {
-            Ok(slow) => slow,
-            Err(why) => return format!(" leaves an unknown residual vibration E ({why})"),
+    /// The residual vibration under a dither in the band of the vibration, as the end of a sentence; empty of other dithers.
+    pub(super) fn residual_in_words(&self) -> String {
+        let residual = match &self.slow {
+            None => return String::new(),
+            Some(Ok(slow)) => slow.response.residual_vibration,
+            Some(Err(why)) => return format!("; it leaves an unknown residual vibration ({why})"),
         };
+        let level = level_of(residual).map_or(String::new(), |level| format!(" ({level:.1} dB)"));
+        format!("; it leaves a residual vibration of {}{level}", percent(residual))
+    }
+
+    /// Where that vibration is largest, and its tone, in a sentence; `None` of other dithers.
+    pub(super) fn slow_in_words(&self, study: &dyn StudyWithDesign) -> Option<String> {
+        let LargestSlowResponse { response, point } = self.slow.as_ref()?.as_ref().ok()?;
         let scale = study.frequency_scale();
-        let level = level_of(response.residual_vibration)
-            .map_or(String::new(), |level| format!(" ({level:.1} dB)"));
         let [with, without] = response.tones.map(|tone| {
             let size = study.in_words(Quantity::Displacement, tone.amplitude);
             (scale.with_noun(tone.frequency), size)
         });
-        format!(
-            " leaves a residual vibration E of {}{level} below {}{}, a tone at {} of {} in place of the vibration at {} of {}",
-            percent(response.residual_vibration),
+        Some(format!(
+            "The residual vibration is that below {}{}: a tone at {} of {} in place of the vibration at {} of {}.",
             scale.with_noun(response.band_end),
             self.point_in_words(point),
             with.0,
             with.1,
             without.0,
             without.1
-        )
+        ))
     }
 
     /// Adds `quiet`, the residual vibration and the tone.
