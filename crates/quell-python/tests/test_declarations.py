@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
+import re
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import declare
@@ -10,6 +13,7 @@ import numpy as np
 import pytest
 
 import quell
+from quell import _frozen
 from quell._result import REPORTED_ELSEWHERE
 
 CLASSES = [cls for name, cls in vars(quell.results).items() if isinstance(cls, type) and issubclass(cls, quell.results.Result)]
@@ -37,7 +41,7 @@ def fits(value: Any, hint: Any) -> bool:
         return value in get_args(hint)
     if hint is float:
         return isinstance(value, (int, float)) and not isinstance(value, bool)
-    if get_origin(hint) in (list, dict):
+    if get_origin(hint) in (list, quell.results.FrozenDict):
         return isinstance(value, get_origin(hint))
     if get_origin(hint) is np.ndarray:
         kind = get_args(get_args(hint)[1])[0]
@@ -56,7 +60,7 @@ def test_every_fact_and_array_is_declared_with_its_type(call: str) -> None:
     assert isinstance(result.facts.get("why", {}), dict)
     facts = {attribute(name) for name in result.facts if name not in REPORTED_ELSEWHERE}
     assert facts <= known, f"not declared: {sorted(facts - known)}"
-    arrays = {name for name in result.arrays if name.isidentifier()} - declare.of_the_study(result) - set(result.facts)
+    arrays = {name for name in result.arrays if name.isidentifier()} - declare.of_the_study(result) - set(result.arrays.paths)
     assert arrays <= known, f"not declared: {sorted(arrays - known)}"
     wrong = {}
     for name, hint in declared.items():
@@ -92,7 +96,8 @@ def test_facts_come_before_arrays_and_every_name_is_an_entry() -> None:
     run = gallery.result("simulate in SI")
     assert isinstance(run.time, np.ndarray) and run.time[-1] == run.final["time"]  # type: ignore[attr-defined]
     for name in run:
-        assert name in run and name in dir(run) and run[name] is not None
+        assert name in run and run[name] is not None
+    assert set(run) - set(run.arrays.paths) <= set(dir(run)) and "final_time" in run and "final_time" not in dir(run)
     assert len(run) == len(list(run)) == len(run.keys())
     assert {"time", "displacement", "sentence", "events"} <= set(run) and "units" not in run
     assert run["sentence"] == run.sentence and {"from_", "to"} <= set(dir(gallery.result("thresholds")))
@@ -105,6 +110,48 @@ def test_facts_come_before_arrays_and_every_name_is_an_entry() -> None:
     with pytest.raises(AttributeError, match=r"no fact quiet_fraction, but an array: result\['quiet_fraction'\]"):
         _ = over.quiet_fraction  # type: ignore[attr-defined]
     assert list(gallery.result("map of a disc"))[0] == "disc_load_speed" and len(gallery.result("map")) > 1
+
+
+def test_parts_of_facts_are_attributes() -> None:
+    actuator, design = gallery.result("actuator"), gallery.result("design")
+    assert actuator.best.amplitude == actuator.best["amplitude"] == float(actuator["best_amplitude"])  # type: ignore[attr-defined]
+    assert actuator.own.drive.force.peak == actuator.facts["own"]["drive"]["force"]["peak"]  # type: ignore[attr-defined]
+    assert np.array_equal(actuator.own.contacts.slip_velocity, actuator.arrays["own_contact_slip_velocity"].values)  # type: ignore[attr-defined]
+    assert actuator.sufficient.from_[0] == actuator.sufficient[0]["from"] == actuator.sufficient[0].from_  # type: ignore[attr-defined]
+    assert actuator.sufficient.best.frequency[0] == actuator.sufficient[0].best.frequency  # type: ignore[attr-defined]
+    assert design.critical.dither_amplitude == design.critical["dither.amplitude"]  # type: ignore[attr-defined]
+    assert {"frequency", "keys"} <= set(dir(actuator.best)) and {"from_", "best"} <= set(dir(actuator.sufficient))  # type: ignore[attr-defined]
+    local = gallery.result("thresholds").local  # type: ignore[attr-defined]
+    assert np.array_equal(local.value, [one.value for one in local]) and np.array_equal(local["value"], local.value)
+    assert local.kind.dtype.kind == "U" and not local.value.flags.writeable and len(type(local)([]).value) == 0
+    with pytest.raises(AttributeError, match=r"Actuator has no best_amplitude, but best\.amplitude, and with its unit result\['best_amplitude'\]"):
+        _ = actuator.best_amplitude  # type: ignore[attr-defined]
+    with pytest.raises(AttributeError, match="no amplitud; did you mean amplitude"):
+        _ = actuator.best.amplitud  # type: ignore[attr-defined]
+    with pytest.raises(AttributeError, match="no column valeu; did you mean value"):
+        _ = local.valeu
+    for value in (local, actuator.best):  # type: ignore[attr-defined]
+        with pytest.raises(AttributeError, match="limit cannot be set: .* cannot be changed"):
+            value.limit = 1
+        with pytest.raises(AttributeError, match="limit cannot be set"):
+            del value.limit
+    with pytest.raises(KeyError, match="did you mean value"):
+        _ = local["valeu"]
+    again = pickle.loads(pickle.dumps(actuator))
+    assert again.sufficient.best.frequency[0] == actuator.sufficient.best.frequency[0]  # type: ignore[attr-defined]
+    assert type(copy.deepcopy(local)) is list and type(copy.deepcopy(actuator.best)) is dict  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("call", gallery.CALLS)
+def test_every_part_of_a_fact_has_the_path_of_its_variable(call: str) -> None:
+    result = gallery.result(call)
+    for name, path in result.arrays.paths.items():
+        head, dot, rest = re.split(r"([.\[]|$)", path, maxsplit=1)
+        found = eval(f"fact{dot}{rest}", {"fact": result._named(head)})
+        flat = isinstance(found, list) and not any(isinstance(one, list) for one in found)
+        values = _frozen.as_array(found) if flat else np.asarray(np.nan if found is None else found)
+        expected = result.arrays[name].values
+        assert np.array_equal(values, expected, equal_nan=expected.dtype.kind == "f"), f"{name}: {path}"
 
 
 def test_misspelt_names_are_answered_with_the_nearest() -> None:

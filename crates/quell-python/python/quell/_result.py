@@ -15,7 +15,7 @@ from ._arguments import Arguments
 from ._dataset import Arrays
 from ._errors import StudyError, complaint
 from ._frozen import Frozen, frozen, thawed
-from ._names import suggestion
+from ._names import attribute, suggestion
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -51,8 +51,10 @@ class Result(Frozen):
     Facts and arrays are attributes and entries: ``response.residual_vibration``, ``response["residual_vibration"]``,
     ``"residual_vibration" in response``, ``list(response)``. An attribute is a method or property of the class if it has one of that
     name, else the fact, else the array, as NumPy values in the units of the study; an array never replaces a fact that the class
-    documents. An entry is the variable of :attr:`dataset`, with its unit, else the fact. A result cannot be changed, and has no truth
-    value: whether it is good is one of its facts.
+    documents. The parts of a fact are its attributes: ``actuator.best.amplitude``, and of a list of objects ``local[0].value`` and the
+    column ``local.value``. An entry is the variable of :attr:`dataset`, with its unit, else the fact; the parts of facts are entries
+    with joined names, ``actuator["best_amplitude"]``. A result cannot be changed, and has no truth value: whether it is good is one of
+    its facts.
     """
 
     verb: ClassVar[str] = ""
@@ -353,13 +355,15 @@ class Result(Frozen):
             name = name[:-1]
         if name in self.facts:
             return self.facts[name]
-        if name in self.arrays and not self._declares(name):
-            one = self.arrays[name]
-            return one.values if one.dims else one.values.item()
+        arrays = self.arrays
+        if name in arrays.paths:
+            raise AttributeError(f"{type(self).__name__} has no {name}, but {arrays.paths[name]}, and with its unit result[{name!r}]")
+        if name in arrays and not self._declares(name):
+            return arrays[name].values
         there = ", ".join(key for key in self.facts if key not in REPORTED_ELSEWHERE)
-        only = [name for name in self.arrays if name not in self.facts and self.arrays[name].dims]
+        only = [name for name in arrays if name not in arrays.paths]
         also = f", its arrays {', '.join(only)}" if only else ""
-        if name in self.arrays:
+        if name in arrays:
             raise AttributeError(f"{type(self).__name__} has no fact {name}, but an array: result[{name!r}]")
         advice = suggestion(name, [*self.facts, *only, *super().__dir__()])
         raise AttributeError(f"{type(self).__name__} has no {name}{advice}; its facts are {there}{also}")
@@ -372,7 +376,7 @@ class Result(Frozen):
         return any(name in get_annotations(cls) for cls in classes)
 
     def __dir__(self) -> list[str]:
-        names = (f"{name}_" if keyword.iskeyword(name) else name for name in {*self, *self.facts})
+        names = map(attribute, {*self.facts, *(name for name in self.arrays if name not in self.arrays.paths)})
         return sorted({*super().__dir__(), *(name for name in names if name.isidentifier() and name != "ok")})
 
     def _ipython_key_completions_(self) -> list[str]:

@@ -1,8 +1,4 @@
-"""Arrays of results, and columns of facts that are lists.
-
-Written by tests/declare.py from what the verbs give. Arrays are in the units of the study; a column such as ``local_value`` has
-one entry for each entry of the fact ``local``.
-"""
+"""Arrays of results over their coordinates, in the units of the study. Written by tests/declare.py from what the verbs give."""
 
 from __future__ import annotations
 
@@ -17,134 +13,21 @@ from .._frozen import Frozen
 class ActuatorColumns(Frozen):
     """Of :class:`quell.results.Actuator`."""
 
-    best_amplitude: float
-    best_contact_contact: npt.NDArray[np.str_]
-    best_contact_slip_velocity: npt.NDArray[np.float64]
-    best_contact_surface_velocity: npt.NDArray[np.float64]
-    best_frequency: float
-    best_margin: float
-    best_needed: float
-    binding_from: npt.NDArray[np.float64]
-    binding_limit: npt.NDArray[np.str_]
-    binding_to: npt.NDArray[np.float64]
-    own_amplitude: float
-    own_contact_contact: npt.NDArray[np.str_]
-    own_contact_slip_velocity: npt.NDArray[np.float64]
-    own_contact_surface_velocity: npt.NDArray[np.float64]
-    own_drive_current_peak: float
-    own_drive_current_peak_to_peak: float
-    own_drive_current_rms: float
-    own_drive_displacement_peak: float
-    own_drive_displacement_peak_to_peak: float
-    own_drive_displacement_rms: float
-    own_drive_force_peak: float
-    own_drive_force_peak_to_peak: float
-    own_drive_force_rms: float
-    own_drive_rated_limit: npt.NDArray[np.str_]
-    own_drive_rated_used: npt.NDArray[np.float64]
-    own_drive_samples_per_period: float
-    own_drive_voltage_peak: float
-    own_drive_voltage_peak_to_peak: float
-    own_drive_voltage_rms: float
-    own_frequency: float
-    own_given: float
-    own_margin: float
-    own_needed: float
-    own_used: float
-    resonance_amplitude: npt.NDArray[np.float64]
-    resonance_frequency: npt.NDArray[np.float64]
-    resonance_helps: npt.NDArray[Any]
-    resonance_limit: npt.NDArray[np.str_]
-    resonance_margin: npt.NDArray[np.float64]
-    resonance_needed: npt.NDArray[np.float64]
     slip_of_belt: npt.NDArray[np.float64]
-    sufficient_from: npt.NDArray[np.float64]
-    sufficient_narrow: npt.NDArray[Any]
-    sufficient_to: npt.NDArray[np.float64]
 
 
 class AttractorColumns(Frozen):
     """Of :class:`quell.results.Attractor`."""
 
-    attractor_base_response: Any
-    attractor_contact_name: npt.NDArray[np.str_]
-    attractor_contact_stick_fraction: npt.NDArray[np.float64]
-    attractor_displacement: float
-    attractor_frequency: float
-    attractor_highest: float
-    attractor_locking: float
-    attractor_locking_periods: Any
-    attractor_locking_turns: Any
-    attractor_lowest: float
-    attractor_multiplier: float
-    attractor_peak_to_peak: float
-    attractor_periods: Any
-    attractor_quiet: Any
-    attractor_rotation_error: float
-    attractor_rotation_number: float
-    attractor_section_displacement_value: npt.NDArray[np.float64]
-    attractor_section_velocity_value: npt.NDArray[np.float64]
-    attractor_state_value: npt.NDArray[np.float64]
-    attractor_velocity: float
-    lyapunov_agrees_with_multipliers: Any
-    lyapunov_contradiction: float
-    lyapunov_deciding: float
-    lyapunov_errors: npt.NDArray[np.float64]
-    lyapunov_exponents: npt.NDArray[np.float64]
-    lyapunov_kaplan_yorke_dimension: float
-    lyapunov_of_multiplier: float
-    lyapunov_settle: float
-    lyapunov_shift_in_time: float
-    lyapunov_time: float
     time: npt.NDArray[np.float64]
 
 
 class BasinsColumns(Frozen):
     """Of :class:`quell.results.Basins`."""
 
-    across_value: npt.NDArray[np.float64]
     attractor: npt.NDArray[np.float64]
-    attractor_base_response: npt.NDArray[Any]
-    attractor_displacement: npt.NDArray[np.float64]
-    attractor_fraction: npt.NDArray[np.float64]
-    attractor_fraction_error: npt.NDArray[np.float64]
-    attractor_fraction_high: npt.NDArray[np.float64]
-    attractor_fraction_low: npt.NDArray[np.float64]
-    attractor_frequency: npt.NDArray[np.float64]
-    attractor_highest: npt.NDArray[np.float64]
-    attractor_kind: npt.NDArray[np.str_]
-    attractor_locking: npt.NDArray[np.float64]
-    attractor_lowest: npt.NDArray[np.float64]
-    attractor_multiplier: npt.NDArray[np.float64]
-    attractor_peak_to_peak: npt.NDArray[np.float64]
-    attractor_period: npt.NDArray[np.float64]
-    attractor_periods: npt.NDArray[Any]
-    attractor_periods_to_settle: npt.NDArray[Any]
-    attractor_quiet: npt.NDArray[Any]
-    attractor_rotation_error: npt.NDArray[np.float64]
-    attractor_rotation_number: npt.NDArray[np.float64]
-    attractor_starts: npt.NDArray[Any]
-    attractor_velocity: npt.NDArray[np.float64]
-    attractor_words: npt.NDArray[np.str_]
-    layout_grid_value: npt.NDArray[Any]
-    layout_sample: Any
-    layout_seed: Any
-    plane_value: npt.NDArray[np.str_]
-    portrait_local_verdict: npt.NDArray[np.str_]
-    portrait_quiet_fraction: npt.NDArray[np.float64]
-    portrait_quiet_fraction_high: npt.NDArray[np.float64]
-    portrait_quiet_fraction_low: npt.NDArray[np.float64]
-    portrait_unknown_starts: npt.NDArray[Any]
-    portrait_value: npt.NDArray[np.float64]
     quiet: npt.NDArray[np.uint8]
-    unknown_fraction: Any
-    unknown_fraction_error: float
-    unknown_fraction_high: float
-    unknown_fraction_low: float
-    unknown_starts_value: Any
-    up_value: npt.NDArray[np.float64]
-    window_across_value: npt.NDArray[np.float64]
-    window_up_value: npt.NDArray[np.float64]
+    unknown_fraction: npt.NDArray[np.float64]
 
 
 class BifurcationColumns(Frozen):
@@ -152,31 +35,7 @@ class BifurcationColumns(Frozen):
 
     belt_stick_fraction: npt.NDArray[np.float64]
     direction: npt.NDArray[np.uint8]
-    down_base_response: npt.NDArray[Any]
-    down_displacement: npt.NDArray[np.float64]
-    down_frequency: npt.NDArray[np.float64]
-    down_highest: npt.NDArray[np.float64]
-    down_kind: npt.NDArray[np.str_]
-    down_local_verdict: npt.NDArray[np.str_]
-    down_locking: npt.NDArray[np.float64]
-    down_lowest: npt.NDArray[np.float64]
-    down_multiplier: npt.NDArray[np.float64]
-    down_peak_to_peak: npt.NDArray[np.float64]
-    down_period: npt.NDArray[np.float64]
-    down_periods: npt.NDArray[Any]
-    down_periods_to_settle: npt.NDArray[Any]
-    down_quiet: npt.NDArray[Any]
-    down_rotation_error: npt.NDArray[np.float64]
-    down_rotation_number: npt.NDArray[np.float64]
-    down_value: npt.NDArray[np.float64]
-    down_velocity: npt.NDArray[np.float64]
-    down_words: npt.NDArray[np.str_]
     frequency: npt.NDArray[np.float64]
-    hysteresis_value: npt.NDArray[np.float64]
-    jump_after: npt.NDArray[np.float64]
-    jump_becomes: npt.NDArray[np.str_]
-    jump_before: npt.NDArray[np.float64]
-    jump_direction: npt.NDArray[np.str_]
     kind: npt.NDArray[np.uint8]
     local_verdict: npt.NDArray[np.uint8]
     locking_periods: npt.NDArray[np.float64]
@@ -190,148 +49,25 @@ class BifurcationColumns(Frozen):
     row: npt.NDArray[np.float64]
     section_displacement: npt.NDArray[np.float64]
     section_velocity: npt.NDArray[np.float64]
-    up_base_response: npt.NDArray[Any]
-    up_displacement: npt.NDArray[np.float64]
-    up_frequency: npt.NDArray[np.float64]
-    up_highest: npt.NDArray[np.float64]
-    up_kind: npt.NDArray[np.str_]
-    up_local_verdict: npt.NDArray[np.str_]
-    up_locking: npt.NDArray[np.float64]
-    up_lowest: npt.NDArray[np.float64]
-    up_multiplier: npt.NDArray[np.float64]
-    up_peak_to_peak: npt.NDArray[np.float64]
-    up_period: npt.NDArray[np.float64]
-    up_periods: npt.NDArray[Any]
-    up_periods_to_settle: npt.NDArray[Any]
-    up_quiet: npt.NDArray[Any]
-    up_rotation_error: npt.NDArray[np.float64]
-    up_rotation_number: npt.NDArray[np.float64]
-    up_value: npt.NDArray[np.float64]
-    up_velocity: npt.NDArray[np.float64]
-    up_words: npt.NDArray[np.str_]
-
-
-class CheckColumns(Frozen):
-    """Of :class:`quell.results.Check`."""
-
-    contact_belt_velocity: npt.NDArray[np.float64]
-    contact_breakaway: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
-    contact_normal: npt.NDArray[Any]
-    contact_normal_load: npt.NDArray[np.float64]
-    contact_tangent: npt.NDArray[Any]
-    contact_tangential_stiffness: npt.NDArray[np.float64]
-    disc_load_angle_deg: npt.NDArray[np.float64]
-    disc_load_damping: npt.NDArray[np.float64]
-    disc_load_dither_phase_deg: npt.NDArray[np.float64]
-    disc_load_friction: npt.NDArray[np.float64]
-    disc_load_mass: npt.NDArray[np.float64]
-    disc_load_radius_ratio: npt.NDArray[np.float64]
-    disc_load_stiffness: npt.NDArray[np.float64]
-    disc_modes: Any
-    disc_speed: float
-    dither_amplitude: Any
-    dither_frequency: Any
-    dither_frequency_ratio: float
-    dither_has_envelope: npt.NDArray[Any]
-    dither_phase: npt.NDArray[np.float64]
-    dither_waveform: npt.NDArray[np.str_]
-    observe_value: npt.NDArray[np.float64]
-
-
-class CitationsColumns(Frozen):
-    """Of :class:`quell.results.Citations`."""
-
-    correction_equations: npt.NDArray[np.str_]
-    correction_printed: npt.NDArray[np.str_]
-    correction_right: npt.NDArray[np.str_]
-    correction_source: npt.NDArray[np.str_]
-    source_key: npt.NDArray[np.str_]
-    source_reference: npt.NDArray[np.str_]
 
 
 class ComparisonColumns(Frozen):
     """Of :class:`quell.results.Comparison`."""
 
-    after_columns: npt.NDArray[np.str_]
     after_computed_after: npt.NDArray[np.float64]
-    after_computed_rms: float
-    after_computed_slow_rms: float
-    after_difference: float
-    after_dithered: Any
-    after_highest: float
-    after_length: float
-    after_line_computed: npt.NDArray[np.float64]
-    after_line_computed_frequency: npt.NDArray[np.float64]
-    after_line_difference: npt.NDArray[np.float64]
-    after_line_frequency: npt.NDArray[np.float64]
-    after_line_measured: npt.NDArray[np.float64]
     after_measured_after: npt.NDArray[np.float64]
-    after_measured_rms: float
-    after_measured_slow_rms: float
-    after_resolution: float
-    before_columns: npt.NDArray[np.str_]
-    before_computed_rms: float
-    before_computed_slow_rms: float
-    before_difference: float
-    before_dithered: Any
-    before_highest: float
-    before_length: float
-    before_line_computed: npt.NDArray[np.float64]
-    before_line_computed_frequency: npt.NDArray[np.float64]
-    before_line_difference: npt.NDArray[np.float64]
-    before_line_frequency: npt.NDArray[np.float64]
-    before_line_measured: npt.NDArray[np.float64]
-    before_measured_rms: float
-    before_measured_slow_rms: float
-    before_resolution: float
     computed: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
     frequency_after: npt.NDArray[np.float64]
     measured: npt.NDArray[np.float64]
-    reduction_difference: float
-    reduction_measured: float
-    reduction_predicted: float
-    slow_reduction_difference: float
-    slow_reduction_measured: float
-    slow_reduction_predicted: float
 
 
 class DecayColumns(Frozen):
     """Of :class:`quell.results.Decay`."""
 
-    comparison_aic: npt.NDArray[np.float64]
-    comparison_difference: npt.NDArray[np.float64]
-    comparison_explained: npt.NDArray[np.float64]
-    comparison_law: npt.NDArray[np.str_]
-    comparison_p: npt.NDArray[Any]
-    comparison_residual: npt.NDArray[np.float64]
-    comparison_rss: npt.NDArray[np.float64]
-    comparison_weight: npt.NDArray[np.float64]
-    covariance_matrix_value: npt.NDArray[np.float64]
-    covariance_order_value: npt.NDArray[np.str_]
     fitted: npt.NDArray[np.float64]
     fitted_deviation: npt.NDArray[np.float64]
     measured: npt.NDArray[np.float64]
-    not_determinable_value: npt.NDArray[np.str_]
-    parameters_damping_ratio_fixed: Any
-    parameters_damping_ratio_standard_error: float
-    parameters_damping_ratio_value: float
-    parameters_displacement_fixed: Any
-    parameters_displacement_standard_error: float
-    parameters_displacement_value: float
-    parameters_friction_displacement_fixed: Any
-    parameters_friction_displacement_standard_error: float
-    parameters_friction_displacement_value: float
-    parameters_natural_frequency_fixed: Any
-    parameters_natural_frequency_standard_error: float
-    parameters_natural_frequency_value: float
-    parameters_offset_fixed: Any
-    parameters_offset_standard_error: float
-    parameters_offset_value: float
-    parameters_velocity_fixed: Any
-    parameters_velocity_standard_error: float
-    parameters_velocity_value: float
     point_residual: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
 
@@ -339,25 +75,8 @@ class DecayColumns(Frozen):
 class DescribingFunctionColumns(Frozen):
     """Of :class:`quell.results.DescribingFunction`."""
 
-    contact_name: npt.NDArray[np.str_]
-    contact_normal_load: npt.NDArray[np.float64]
     contact_number: npt.NDArray[np.float64]
-    contact_slip_velocity: npt.NDArray[np.float64]
-    contact_small_gain: npt.NDArray[np.float64]
     gain: npt.NDArray[np.float64]
-    growth_rate_value: float
-    limit_cycle_amplitude_value: npt.NDArray[np.float64]
-    limit_cycle_frequency_value: npt.NDArray[np.float64]
-    limit_cycle_stable: npt.NDArray[Any]
-    limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
-    limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
-    limit_limit_cycle_amplitude: float
-    limit_limit_cycle_amplitude_value: npt.NDArray[np.float64]
-    limit_limit_cycle_stable: npt.NDArray[Any]
-    limit_limit_cycle_velocity: float
-    limit_limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
-    limit_limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
-    limit_small_gain: float
     mean_coefficient: npt.NDArray[np.float64]
     row: npt.NDArray[np.float64]
     undithered_gain: npt.NDArray[np.float64]
@@ -368,97 +87,15 @@ class DesignColumns(Frozen):
     """Of :class:`quell.results.Design`."""
 
     amplitude: npt.NDArray[np.float64]
-    averaged_dither_amplitude: float
-    averaged_dither_amplitude_n: float
-    averaged_dither_frequency_hz: float
-    averaged_dither_frequency_ratio: float
-    basin_objective: npt.NDArray[np.float64]
-    binding_value: npt.NDArray[np.str_]
-    confident_allowed: Any
-    confident_amplitude: float
-    confident_confidence: float
-    confident_exact: Any
-    confident_high: float
-    confident_invalid: Any
-    confident_limit_limit: npt.NDArray[np.str_]
-    confident_limit_used: npt.NDArray[np.float64]
-    confident_loud_again: Any
-    confident_low: float
-    confident_never_quiet: Any
-    confident_objective: float
-    confident_over_least: float
-    confident_parameters_dither_amplitude_n: float
-    confident_samples: Any
-    confident_seed: Any
-    confident_unknown: Any
-    covered_belt_belt_velocity_m_per_s: npt.NDArray[np.float64]
-    critical_dither_amplitude: float
-    critical_dither_amplitude_n: float
-    critical_dither_frequency_hz: float
-    critical_dither_frequency_ratio: float
     dither_frequency_hz: npt.NDArray[np.float64]
     dither_frequency_ratio: npt.NDArray[np.float64]
-    drive_current_peak: float
-    drive_current_peak_to_peak: float
-    drive_current_rms: float
-    drive_displacement_peak: float
-    drive_displacement_peak_to_peak: float
-    drive_displacement_rms: float
-    drive_force_peak: float
-    drive_force_peak_to_peak: float
-    drive_force_rms: float
-    drive_point_belt_belt_velocity_m_per_s: float
-    drive_rated_limit: npt.NDArray[np.str_]
-    drive_rated_used: npt.NDArray[np.float64]
-    drive_samples_per_period: float
-    drive_voltage_peak: float
-    drive_voltage_peak_to_peak: float
-    drive_voltage_rms: float
-    examined_largest_gap: float
-    examined_points: Any
-    frontier_limit: npt.NDArray[np.str_]
-    frontier_objective: npt.NDArray[np.float64]
-    frontier_value: npt.NDArray[np.float64]
-    limit_limit: npt.NDArray[np.str_]
-    limit_used: npt.NDArray[np.float64]
     number: npt.NDArray[np.float64]
-    parameters_dither_amplitude: float
-    parameters_dither_amplitude_n: float
-    parameters_dither_frequency_hz: float
-    parameters_dither_frequency_ratio: float
-    schedule_amplitude: npt.NDArray[np.float64]
-    schedule_objective: npt.NDArray[np.float64]
-    threshold_meets: float
-    verified_growth_rate: float
-    verified_largest_multiplier: float
-    verified_multiplier: float
-    verified_operating_points: Any
-    verified_point_belt_belt_velocity: float
-    verified_point_belt_belt_velocity_m_per_s: float
-    verified_point_disc_load_speed: float
-    waveform_feasible: npt.NDArray[Any]
-    waveform_objective: npt.NDArray[np.float64]
-    waveform_waveform: npt.NDArray[np.str_]
-    worst_belt_belt_velocity: float
-    worst_belt_belt_velocity_m_per_s: float
-
-
-class ExactStabilityColumns(Frozen):
-    """Of :class:`quell.results.ExactStability`."""
-
-    exponent_frequency: npt.NDArray[np.float64]
-    exponent_growth_rate: npt.NDArray[np.float64]
-    exponent_growth_rate_error: npt.NDArray[np.float64]
-    state_value: npt.NDArray[np.float64]
 
 
 class FrictionCurveColumns(Frozen):
     """Of :class:`quell.results.FrictionCurve`."""
 
-    contact_fast_velocity: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
     contact_number: npt.NDArray[np.float64]
-    contact_surface_velocity: npt.NDArray[np.float64]
     row: npt.NDArray[np.float64]
 
 
@@ -468,25 +105,7 @@ class LawFitColumns(Frozen):
     coefficient: npt.NDArray[np.float64]
     coefficient_high: npt.NDArray[np.float64]
     coefficient_low: npt.NDArray[np.float64]
-    comparison_aic: npt.NDArray[np.float64]
-    comparison_difference: npt.NDArray[np.float64]
-    comparison_law: npt.NDArray[np.str_]
-    comparison_p: npt.NDArray[Any]
-    comparison_residual: npt.NDArray[np.float64]
-    comparison_rss: npt.NDArray[np.float64]
-    comparison_weight: npt.NDArray[np.float64]
-    covariance_matrix_value: npt.NDArray[np.float64]
-    covariance_order_value: npt.NDArray[np.str_]
     line: npt.NDArray[np.float64]
-    parameters_minimum_coefficient_fixed: Any
-    parameters_minimum_coefficient_standard_error: float
-    parameters_minimum_coefficient_value: float
-    parameters_reference_velocity_fixed: Any
-    parameters_reference_velocity_standard_error: float
-    parameters_reference_velocity_value: float
-    parameters_static_coefficient_fixed: Any
-    parameters_static_coefficient_standard_error: float
-    parameters_static_coefficient_value: float
     points_point_coefficient: npt.NDArray[np.float64]
     points_point_deviation: npt.NDArray[np.float64]
     points_point_residual: npt.NDArray[np.float64]
@@ -572,8 +191,6 @@ class MapColumns(Frozen):
 class ModesColumns(Frozen):
     """Of :class:`quell.results.Modes`."""
 
-    critical_mode_diameters: Any
-    critical_mode_radial: Any
     damping: npt.NDArray[np.float64]
     damping_ratio: npt.NDArray[np.float64]
     diameters: npt.NDArray[np.float64]
@@ -581,15 +198,6 @@ class ModesColumns(Frozen):
     frequency_hz: npt.NDArray[np.float64]
     frequency_parameter: npt.NDArray[np.float64]
     mode: npt.NDArray[np.float64]
-    mode_critical_speed: npt.NDArray[np.float64]
-    mode_damping: npt.NDArray[np.float64]
-    mode_damping_ratio: npt.NDArray[np.float64]
-    mode_diameters: npt.NDArray[Any]
-    mode_frequency: npt.NDArray[np.float64]
-    mode_frequency_parameter: npt.NDArray[np.float64]
-    mode_radial: npt.NDArray[Any]
-    mode_ratio: npt.NDArray[np.float64]
-    mode_shape_at_load: npt.NDArray[np.float64]
     radial: npt.NDArray[np.float64]
     ratio: npt.NDArray[np.float64]
     shape_at_load: npt.NDArray[np.float64]
@@ -598,15 +206,6 @@ class ModesColumns(Frozen):
 class NoiseResponseColumns(Frozen):
     """Of :class:`quell.results.NoiseResponse`."""
 
-    contact_mean_friction: npt.NDArray[np.float64]
-    contact_mean_friction_undithered: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
-    dither_displacement_rms: npt.NDArray[np.float64]
-    dither_force_peak: npt.NDArray[np.float64]
-    dither_force_rms: npt.NDArray[np.float64]
-    dither_power: npt.NDArray[np.float64]
-    dither_stroke: npt.NDArray[np.float64]
-    dither_velocity_rms: npt.NDArray[np.float64]
     mean_friction: npt.NDArray[np.float64]
     seed: npt.NDArray[np.float64]
     stick_fraction: npt.NDArray[np.float64]
@@ -619,99 +218,13 @@ class OrbitColumns(Frozen):
     belt_normal: npt.NDArray[np.float64]
     belt_phase: npt.NDArray[np.uint8]
     belt_slip_velocity: npt.NDArray[np.float64]
-    contact_least_slip_velocity: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
-    contact_open_fraction: npt.NDArray[np.float64]
-    contact_reversals: npt.NDArray[Any]
-    contact_stick_episodes: npt.NDArray[Any]
-    contact_stick_fraction: npt.NDArray[np.float64]
-    cycle_displacement: npt.NDArray[np.float64]
-    cycle_free_phase: npt.NDArray[Any]
-    cycle_highest: npt.NDArray[np.float64]
-    cycle_highest_velocity: npt.NDArray[np.float64]
-    cycle_lowest: npt.NDArray[np.float64]
-    cycle_lowest_velocity: npt.NDArray[np.float64]
-    cycle_monodromy: npt.NDArray[np.float64]
-    cycle_multiplier_error: npt.NDArray[np.float64]
-    cycle_one_sided: npt.NDArray[Any]
-    cycle_period: npt.NDArray[np.float64]
-    cycle_periods: npt.NDArray[Any]
-    cycle_protocol: npt.NDArray[np.str_]
-    cycle_radius: npt.NDArray[np.float64]
-    cycle_residual: npt.NDArray[np.float64]
-    cycle_response: npt.NDArray[np.str_]
-    cycle_sentence: npt.NDArray[np.str_]
-    cycle_state_error: npt.NDArray[np.float64]
-    cycle_velocity: npt.NDArray[np.float64]
-    cycle_verdict: npt.NDArray[np.str_]
-    displacement_value: float
-    event_contact: npt.NDArray[Any]
-    event_kind: npt.NDArray[np.str_]
-    event_slip_sign: npt.NDArray[Any]
-    event_time: npt.NDArray[np.float64]
-    monodromy_value: npt.NDArray[np.float64]
-    state_value: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
-    velocity_value: float
-
-
-class ProbabilityColumns(Frozen):
-    """Of :class:`quell.results.Probability`."""
-
-    group_first: npt.NDArray[np.float64]
-    group_first_error: npt.NDArray[np.float64]
-    group_total: npt.NDArray[np.float64]
-    group_total_error: npt.NDArray[np.float64]
-    limit_high: float
-    limit_indices_belt_belt_velocity_first: float
-    limit_indices_belt_belt_velocity_first_error: float
-    limit_indices_belt_belt_velocity_m_per_s_first: float
-    limit_indices_belt_belt_velocity_m_per_s_first_error: float
-    limit_indices_belt_belt_velocity_m_per_s_total: float
-    limit_indices_belt_belt_velocity_m_per_s_total_error: float
-    limit_indices_belt_belt_velocity_total: float
-    limit_indices_belt_belt_velocity_total_error: float
-    limit_indices_belt_damping_ratio_first: float
-    limit_indices_belt_damping_ratio_first_error: float
-    limit_indices_belt_damping_ratio_total: float
-    limit_indices_belt_damping_ratio_total_error: float
-    limit_indices_friction_minimum_coefficient_first: float
-    limit_indices_friction_minimum_coefficient_first_error: float
-    limit_indices_friction_minimum_coefficient_total: float
-    limit_indices_friction_minimum_coefficient_total_error: float
-    limit_indices_friction_static_coefficient_first: float
-    limit_indices_friction_static_coefficient_first_error: float
-    limit_indices_friction_static_coefficient_total: float
-    limit_indices_friction_static_coefficient_total_error: float
-    limit_low: float
-    limit_probability: float
-    limit_quiet: Any
-    limit_unknown: Any
-    limit_vibrating: Any
-    threshold_amplitude: npt.NDArray[np.float64]
-    threshold_share: npt.NDArray[np.float64]
 
 
 class RampColumns(Frozen):
     """Of :class:`quell.results.Ramp`."""
 
     displacement: npt.NDArray[np.float64]
-    manoeuvre_begins_above: float
-    manoeuvre_dither_onset: float
-    manoeuvre_ends_below: float
-    manoeuvre_overshoot: float
-    manoeuvre_time_to_quench: float
-    manoeuvre_vibration_amplitude: npt.NDArray[np.float64]
-    manoeuvre_vibration_from: npt.NDArray[np.float64]
-    manoeuvre_vibration_to: npt.NDArray[np.float64]
-    switch_becomes: npt.NDArray[np.str_]
-    switch_threshold: npt.NDArray[np.float64]
-    switch_threshold_time: npt.NDArray[np.float64]
-    switch_time: npt.NDArray[np.float64]
-    switch_value: npt.NDArray[np.float64]
-    threshold_becomes: npt.NDArray[np.str_]
-    threshold_kind: npt.NDArray[np.str_]
-    threshold_value: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
     value: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
@@ -720,16 +233,8 @@ class RampColumns(Frozen):
 class RecordFitColumns(Frozen):
     """Of :class:`quell.results.RecordFit`."""
 
-    covariance_matrix_value: npt.NDArray[np.float64]
-    covariance_order_value: npt.NDArray[np.str_]
     fitted: npt.NDArray[np.float64]
     measured: npt.NDArray[np.float64]
-    parameters_friction_static_coefficient_fixed: Any
-    parameters_friction_static_coefficient_standard_error: float
-    parameters_friction_static_coefficient_value: float
-    parameters_record_shift_fixed: Any
-    parameters_record_shift_standard_error: float
-    parameters_record_shift_value: float
     point_residual: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
 
@@ -737,86 +242,22 @@ class RecordFitColumns(Frozen):
 class ResonancesColumns(Frozen):
     """Of :class:`quell.results.Resonances`."""
 
-    clear_clear_value: npt.NDArray[np.float64]
-    clear_frequencies: npt.NDArray[np.float64]
-    clear_original_suppressed: Any
-    clear_speeds: npt.NDArray[np.float64]
-    clear_suggestion: float
-    clear_tested_frequency: npt.NDArray[np.float64]
-    clear_tested_growth_rate: npt.NDArray[np.float64]
-    clear_tested_speed: npt.NDArray[np.float64]
-    clear_tested_verdict: npt.NDArray[np.str_]
-    clear_there_conjugate: npt.NDArray[Any]
-    clear_there_harmonic: npt.NDArray[Any]
-    clear_there_pair: npt.NDArray[np.str_]
-    clear_there_pair_can_be_unstable: npt.NDArray[Any]
-    clear_there_peak_growth: npt.NDArray[np.float64]
-    clear_there_reaches_in: npt.NDArray[Any]
-    clear_there_speed: npt.NDArray[np.float64]
-    clear_there_threshold: npt.NDArray[np.float64]
-    clear_there_width: npt.NDArray[np.float64]
-    clear_verified_growth_rate: float
-    clear_verified_growth_rate_error: float
-    clear_verified_growth_rate_value: float
-    clear_verified_speed: float
-    dithered_conjugate: npt.NDArray[Any]
-    dithered_edges: npt.NDArray[np.float64]
-    dithered_harmonic: npt.NDArray[Any]
-    dithered_pair: npt.NDArray[np.str_]
-    dithered_pair_can_be_unstable: npt.NDArray[Any]
-    dithered_peak_growth: npt.NDArray[np.float64]
-    dithered_speed: npt.NDArray[np.float64]
-    dithered_threshold: npt.NDArray[np.float64]
-    dithered_width: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
-    growing_explained_by: npt.NDArray[np.str_]
-    growing_from: npt.NDArray[np.float64]
-    growing_order: npt.NDArray[np.str_]
-    growing_pair: npt.NDArray[np.str_]
-    growing_peak_growth: npt.NDArray[np.float64]
-    growing_peak_speed: npt.NDArray[np.float64]
-    growing_to: npt.NDArray[np.float64]
     harmonic: npt.NDArray[np.float64]
     lower_edge: npt.NDArray[np.float64]
     meeting: npt.NDArray[np.float64]
     pair_can_be_unstable: npt.NDArray[np.float64]
     peak_growth: npt.NDArray[np.float64]
-    response_contact: npt.NDArray[np.str_]
-    response_dither: npt.NDArray[Any]
     speed: npt.NDArray[np.float64]
     threshold: npt.NDArray[np.float64]
-    undithered_conjugate: npt.NDArray[Any]
-    undithered_harmonic: npt.NDArray[Any]
-    undithered_pair: npt.NDArray[np.str_]
-    undithered_pair_can_be_unstable: npt.NDArray[Any]
-    undithered_peak_growth: npt.NDArray[np.float64]
-    undithered_speed: npt.NDArray[np.float64]
-    undithered_threshold: npt.NDArray[np.float64]
-    undithered_width: npt.NDArray[np.float64]
     upper_edge: npt.NDArray[np.float64]
 
 
 class ResponseColumns(Frozen):
     """Of :class:`quell.results.Response`."""
 
-    contact_friction_loss: npt.NDArray[np.float64]
-    contact_friction_power: npt.NDArray[np.float64]
-    contact_least_normal: npt.NDArray[np.float64]
-    contact_mean_friction: npt.NDArray[np.float64]
-    contact_mean_friction_undithered: npt.NDArray[np.float64]
-    contact_mean_normal: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
-    contact_open_fraction: npt.NDArray[np.float64]
-    contact_steady_sliding_friction: npt.NDArray[np.float64]
-    contact_stick_fraction: npt.NDArray[np.float64]
     displacement: npt.NDArray[np.float64]
-    dither_actuator_power: npt.NDArray[np.float64]
-    dither_actuator_stroke: npt.NDArray[np.float64]
-    dither_power: npt.NDArray[np.float64]
-    dither_stroke: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
-    peak_amplitude: npt.NDArray[np.float64]
-    peak_frequency: npt.NDArray[np.float64]
     spectrum_amplitude: npt.NDArray[np.float64]
     spectrum_undithered_amplitude: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
@@ -832,124 +273,15 @@ class SimulationColumns(Frozen):
     belt_normal: npt.NDArray[np.float64]
     belt_phase: npt.NDArray[np.uint8]
     belt_slip_velocity: npt.NDArray[np.float64]
-    contact_friction_power: npt.NDArray[np.float64]
-    contact_least_normal: npt.NDArray[np.float64]
-    contact_mean_friction: npt.NDArray[np.float64]
-    contact_mean_normal: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
-    contact_open_fraction: npt.NDArray[np.float64]
-    contact_stick_fraction: npt.NDArray[np.float64]
     displacement: npt.NDArray[np.float64]
-    event_contact: npt.NDArray[Any]
-    event_counts_landing: Any
-    event_counts_release: Any
-    event_counts_reversal: Any
-    event_counts_separation: Any
-    event_counts_stick: Any
-    event_displacement: npt.NDArray[np.float64]
-    event_kind: npt.NDArray[np.str_]
-    event_slip_sign: npt.NDArray[Any]
-    event_time: npt.NDArray[np.float64]
-    event_velocity: npt.NDArray[np.float64]
-    final_contact_friction: npt.NDArray[np.float64]
-    final_contact_name: npt.NDArray[np.str_]
-    final_contact_normal: npt.NDArray[np.float64]
-    final_contact_open: npt.NDArray[Any]
-    final_contact_slip_sign: npt.NDArray[Any]
-    final_contact_slip_velocity: npt.NDArray[np.float64]
-    final_contact_sticking: npt.NDArray[Any]
-    final_displacement: float
-    final_friction: float
-    final_state_value: npt.NDArray[np.float64]
-    final_time: float
-    final_velocity: float
-    manoeuvre_begins_above: float
-    manoeuvre_dither_onset: float
-    manoeuvre_ends_below: float
-    manoeuvre_overshoot: float
-    manoeuvre_quench_alone: npt.NDArray[Any]
-    manoeuvre_quench_dither_onset: npt.NDArray[np.float64]
-    manoeuvre_quench_overshoot: npt.NDArray[np.float64]
-    manoeuvre_quench_time_to_quench: npt.NDArray[np.float64]
-    manoeuvre_time_to_quench: float
-    manoeuvre_vibration_amplitude: npt.NDArray[np.float64]
-    manoeuvre_vibration_from: npt.NDArray[np.float64]
-    manoeuvre_vibration_to: npt.NDArray[np.float64]
-    sound_clipped: Any
-    sound_duration_s: float
-    sound_gain: float
-    sound_natural_frequency_hz: float
-    sound_sample_rate: Any
-    sound_strongest_frequency_hz: float
-    sound_transposition: float
-    start_amplitude: float
-    start_displacement: float
-    start_state_value: npt.NDArray[np.float64]
-    start_time: float
-    start_velocity: float
     time: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
-
-
-class StabilityColumns(Frozen):
-    """Of :class:`quell.results.Stability`."""
-
-    change_frequency: npt.NDArray[np.float64]
-    change_friction: npt.NDArray[np.float64]
-    contact_effective_coefficient: npt.NDArray[np.float64]
-    contact_friction: npt.NDArray[np.float64]
-    contact_load_amplitude: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
-    contact_normal: npt.NDArray[np.float64]
-    contact_ratchet_force: npt.NDArray[np.float64]
-    contact_slip_amplitude: npt.NDArray[np.float64]
-    contact_slope_by_velocity: npt.NDArray[np.float64]
-    contact_slope_is_one_sided: npt.NDArray[Any]
-    critical_amplitude_amplitude: npt.NDArray[np.float64]
-    critical_amplitude_amplitude_error: npt.NDArray[np.float64]
-    critical_amplitude_becomes: npt.NDArray[np.str_]
-    critical_amplitude_contacts_stay_closed: npt.NDArray[Any]
-    critical_amplitude_kind: npt.NDArray[np.str_]
-    critical_amplitude_within_law_ranges: npt.NDArray[Any]
-    critical_speed_diameters: npt.NDArray[Any]
-    critical_speed_mode: npt.NDArray[Any]
-    critical_speed_near: npt.NDArray[Any]
-    critical_speed_speed: npt.NDArray[np.float64]
-    growth_rate_db_per_s: float
-    limit_criterion: float
-    limit_criterion_error: float
-    limit_critical_amplitude_amplitude: npt.NDArray[np.float64]
-    limit_critical_amplitude_amplitude_error: npt.NDArray[np.float64]
-    limit_critical_amplitude_amplitude_ratio: npt.NDArray[np.float64]
-    limit_critical_amplitude_becomes: npt.NDArray[np.str_]
-    limit_critical_amplitude_contacts_stay_closed: npt.NDArray[Any]
-    limit_critical_amplitude_kind: npt.NDArray[np.str_]
-    limit_everywhere_stable_amplitude: float
-    limit_everywhere_stable_amplitude_ratio: float
-    limit_growth_rate: float
-    limit_unstable_surface_velocity_lower: npt.NDArray[np.float64]
-    limit_unstable_surface_velocity_lower_kind: npt.NDArray[np.str_]
-    limit_unstable_surface_velocity_upper: npt.NDArray[np.float64]
-    motion_damping_ratio: npt.NDArray[np.float64]
-    motion_error: npt.NDArray[np.float64]
-    motion_frequency: npt.NDArray[np.float64]
-    motion_growth_rate: npt.NDArray[np.float64]
-    undithered_frequency: float
-    undithered_growth_rate: float
-    undithered_growth_rate_error: float
-    unstable_surface_velocity_lower: npt.NDArray[np.float64]
-    unstable_surface_velocity_lower_kind: npt.NDArray[np.str_]
-    unstable_surface_velocity_upper: npt.NDArray[np.float64]
 
 
 class ThresholdCurvesColumns(Frozen):
     """Of :class:`quell.results.ThresholdCurves`."""
 
-    averaged_limit: npt.NDArray[Any]
-    between_value: npt.NDArray[np.float64]
     curve: npt.NDArray[np.float64]
-    curve_contact: npt.NDArray[np.str_]
-    curve_kind: npt.NDArray[np.str_]
     kind: npt.NDArray[np.uint8]
     multiplier_modulus: npt.NDArray[np.float64]
     point: npt.NDArray[np.float64]
@@ -960,93 +292,22 @@ class ThresholdsColumns(Frozen):
 
     branch: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
-    from_rest_becomes: npt.NDArray[np.str_]
-    from_rest_error: npt.NDArray[np.float64]
-    from_rest_kind: npt.NDArray[np.str_]
-    from_rest_value: npt.NDArray[np.float64]
-    from_sliding_becomes: npt.NDArray[np.str_]
-    from_sliding_error: npt.NDArray[np.float64]
-    from_sliding_kind: npt.NDArray[np.str_]
-    from_sliding_value: npt.NDArray[np.float64]
-    from_squeal_becomes: npt.NDArray[np.str_]
-    from_squeal_error: npt.NDArray[np.float64]
-    from_squeal_kind: npt.NDArray[np.str_]
-    from_squeal_value: npt.NDArray[np.float64]
-    from_start_becomes: npt.NDArray[np.str_]
-    from_start_error: npt.NDArray[np.float64]
-    from_start_kind: npt.NDArray[np.str_]
-    from_start_value: npt.NDArray[np.float64]
     growth_rate: npt.NDArray[np.float64]
-    local_becomes: npt.NDArray[np.str_]
-    local_contact: npt.NDArray[np.str_]
-    local_criticality: npt.NDArray[np.float64]
-    local_criticality_reason: npt.NDArray[np.str_]
-    local_displacement: npt.NDArray[np.float64]
-    local_error: npt.NDArray[np.float64]
-    local_first_lyapunov_coefficient: npt.NDArray[np.float64]
-    local_first_lyapunov_coefficient_error: npt.NDArray[np.float64]
-    local_frequency: npt.NDArray[np.float64]
-    local_kind: npt.NDArray[np.str_]
-    local_opens_towards: npt.NDArray[np.float64]
-    local_quadratic_coefficient: npt.NDArray[np.float64]
-    local_quadratic_coefficient_error: npt.NDArray[np.float64]
-    local_radius_above: npt.NDArray[np.float64]
-    local_radius_below: npt.NDArray[np.float64]
-    local_value: npt.NDArray[np.float64]
-    local_velocity: npt.NDArray[np.float64]
-    local_was: npt.NDArray[np.str_]
     point: npt.NDArray[np.float64]
     radius: npt.NDArray[np.float64]
-    signature_change_above: npt.NDArray[np.str_]
-    signature_change_below: npt.NDArray[np.str_]
-    signature_change_value: npt.NDArray[np.float64]
-    threshold_becomes: npt.NDArray[np.str_]
-    threshold_criticality: npt.NDArray[np.float64]
-    threshold_criticality_reason: npt.NDArray[np.str_]
-    threshold_error: npt.NDArray[np.float64]
-    threshold_first_lyapunov_coefficient: npt.NDArray[np.float64]
-    threshold_first_lyapunov_coefficient_error: npt.NDArray[np.float64]
-    threshold_frequency: npt.NDArray[np.float64]
-    threshold_kind: npt.NDArray[np.str_]
-    threshold_value: npt.NDArray[np.float64]
-    threshold_was: npt.NDArray[np.str_]
 
 
 class TrackedStabilityColumns(Frozen):
     """Of :class:`quell.results.TrackedStability`."""
 
-    between_value: npt.NDArray[np.float64]
     branch: npt.NDArray[np.float64]
     curve: npt.NDArray[np.float64]
-    curve_becomes: npt.NDArray[np.str_]
-    curve_kind: npt.NDArray[np.str_]
-    curve_was: npt.NDArray[np.str_]
     eigenvalues_frequency: npt.NDArray[np.float64]
     eigenvalues_growth_rate: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
     growth_rate: npt.NDArray[np.float64]
     kind: npt.NDArray[np.uint8]
-    local_becomes: npt.NDArray[np.str_]
-    local_criticality: npt.NDArray[np.float64]
-    local_criticality_reason: npt.NDArray[np.str_]
-    local_error: npt.NDArray[np.float64]
-    local_first_lyapunov_coefficient: npt.NDArray[np.float64]
-    local_first_lyapunov_coefficient_error: npt.NDArray[np.float64]
-    local_frequency: npt.NDArray[np.float64]
-    local_kind: npt.NDArray[np.str_]
-    local_value: npt.NDArray[np.float64]
-    local_was: npt.NDArray[np.str_]
     point: npt.NDArray[np.float64]
-    threshold_becomes: npt.NDArray[np.str_]
-    threshold_criticality: npt.NDArray[np.float64]
-    threshold_criticality_reason: npt.NDArray[np.str_]
-    threshold_error: npt.NDArray[np.float64]
-    threshold_first_lyapunov_coefficient: npt.NDArray[np.float64]
-    threshold_first_lyapunov_coefficient_error: npt.NDArray[np.float64]
-    threshold_frequency: npt.NDArray[np.float64]
-    threshold_kind: npt.NDArray[np.str_]
-    threshold_value: npt.NDArray[np.float64]
-    threshold_was: npt.NDArray[np.str_]
 
 
 class WaveformsColumns(Frozen):
@@ -1054,36 +315,10 @@ class WaveformsColumns(Frozen):
 
     number: npt.NDArray[np.float64]
     waveform: npt.NDArray[np.uint8]
-    waveform_amplitude: npt.NDArray[np.float64]
-    waveform_duty_cycle: npt.NDArray[np.float64]
-    waveform_exact_amplitude: npt.NDArray[np.float64]
-    waveform_exact_power: npt.NDArray[np.float64]
-    waveform_exact_root_mean_square: npt.NDArray[np.float64]
-    waveform_exact_stroke: npt.NDArray[np.float64]
-    waveform_exact_until: npt.NDArray[np.float64]
-    waveform_exact_velocity: npt.NDArray[np.float64]
-    waveform_label: npt.NDArray[np.str_]
-    waveform_off: npt.NDArray[np.float64]
-    waveform_on: npt.NDArray[np.float64]
-    waveform_own: npt.NDArray[Any]
-    waveform_power: npt.NDArray[np.float64]
-    waveform_root_mean_square: npt.NDArray[np.float64]
-    waveform_slow: npt.NDArray[Any]
-    waveform_stroke: npt.NDArray[np.float64]
-    waveform_until: npt.NDArray[np.float64]
-    waveform_velocity: npt.NDArray[np.float64]
-    waveform_waveform: npt.NDArray[np.str_]
 
 
 class WindowColumns(Frozen):
     """Of :class:`quell.results.Window`."""
 
-    contact_friction_power: npt.NDArray[np.float64]
-    contact_least_normal: npt.NDArray[np.float64]
-    contact_mean_friction: npt.NDArray[np.float64]
-    contact_mean_normal: npt.NDArray[np.float64]
-    contact_name: npt.NDArray[np.str_]
-    contact_open_fraction: npt.NDArray[np.float64]
-    contact_stick_fraction: npt.NDArray[np.float64]
     displacement: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]

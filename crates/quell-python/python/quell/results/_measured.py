@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from .._frozen import FrozenDict, Records
 from .._result import Result
 from . import _columns
 
@@ -17,9 +18,9 @@ __all__ = ["Comparison", "Decay", "LawFit", "RecordFit"]
 class _Estimates(Result):
     """What every fit says."""
 
-    parameters: dict[str, dict[str, float | bool | None]]
+    parameters: FrozenDict[FrozenDict[float | bool | None]]
     """``value``, ``standard_error`` and ``fixed`` by name, or by path of a study."""
-    covariance: dict[str, list[Any]]
+    covariance: FrozenDict[list[Any]]
     """``order``, the names or paths, and ``matrix``, row by row."""
     condition: float | None
     """Condition of the information matrix."""
@@ -52,7 +53,7 @@ class _ComparedLaws(_Estimates):
 
     law: str
     """The law with the least AIC."""
-    comparison: list[dict[str, Any]]
+    comparison: Records
     """Every law by ascending AIC."""
 
 
@@ -68,7 +69,7 @@ class Decay(_columns.DecayColumns, _ComparedLaws, _OfRecord):
     """What the record shows."""
     not_determinable: list[str]
     """What no free decay determines."""
-    tables: dict[str, str]
+    tables: FrozenDict[str]
     """Tables to paste into a study: ``belt`` and ``uncertainty``."""
 
 
@@ -88,13 +89,13 @@ class LawFit(_columns.LawFitColumns, _ComparedLaws):
     """Lines of the file without slip, which are left out."""
     not_determinable: list[str]
     """What steady sliding does not determine."""
-    left_out: list[dict[str, str]]
+    left_out: Records
     """Laws that could not be fitted, and why."""
 
     @property
-    def tables(self) -> dict[str, str]:
+    def tables(self) -> FrozenDict[str]:
         """Tables to paste into a study: ``friction`` and ``uncertainty``, the fact ``study``."""
-        found: dict[str, str] = self.facts["study"]
+        found: FrozenDict[str] = self.facts["study"]
         return found
 
 
@@ -112,11 +113,11 @@ class RecordFit(_columns.RecordFitColumns, _OfRecord):
     """What the record shows."""
     shift_from: str | None
     """Where a free shift counts from."""
-    other_minima: list[dict[str, Any]]
+    other_minima: Records
     """Other minima of the sum of squares."""
-    not_determinable: list[dict[str, Any]]
+    not_determinable: Records
     """Combinations of numbers that the record hardly determines."""
-    tables: dict[str, str]
+    tables: FrozenDict[str]
     """Tables to paste into the study: ``numbers`` and ``uncertainty``."""
 
 
@@ -124,11 +125,11 @@ class Comparison(_columns.ComparisonColumns, Result):
     """Measured and computed spectra; arrays over frequencies (n,), those of a second file with the ending of its dataset."""
 
     verb = "compare"
-    before: dict[str, Any]
+    before: FrozenDict[Any]
     """The first file: ``lines``, ``measured_rms``, ``computed_rms``, ``resolution``, ``not_comparable``."""
-    after: dict[str, Any] | None
+    after: FrozenDict[Any] | None
     """The same of the second file."""
-    reduction: dict[str, float] | None
+    reduction: FrozenDict[float] | None
     """Decibels by which the dither reduces the vibration: ``measured``, ``predicted``, ``difference``."""
-    slow_reduction: dict[str, float] | None
+    slow_reduction: FrozenDict[float] | None
     """The same of the vibration below the dither."""

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from .. import _dataset
 from .._errors import StudyError, complaint
-from .._frozen import frozen
+from .._frozen import FrozenDict, Records, frozen
 from .._result import Result
 from . import _columns
 
@@ -25,7 +25,7 @@ class Thresholds(_columns.ThresholdsColumns, Result):
     verb = "thresholds"
     parameter: str
     """Path of the parameter."""
-    local: list[dict[str, Any]]
+    local: Records
     """``value`` with its ``error``, ``kind``, ``was``, ``becomes``; under dither or with runs the ``state`` there, ``displacement`` and
     ``velocity`` of what is observed, and the multipliers on both sides, ``radius_below`` and ``radius_above``.
 
@@ -42,43 +42,43 @@ class Thresholds(_columns.ThresholdsColumns, Result):
     shape has norm 1 over the coordinates, so that its unit is 1/displacement²; of a Hopf bifurcation it is divided by the angular
     frequency, of the others it is per period.
     """
-    signature_changes: list[dict[str, Any]]
+    signature_changes: Records
     """``value`` at which the events of a period change, and the events ``below`` and ``above``."""
-    gaps: list[dict[str, Any]]
+    gaps: Records
     """Intervals ``from`` … ``to`` next to a grazing in which no response was found."""
     covered: bool
     """Whether the response was continued over the whole range."""
     resumes: bool
     """Whether the last value has an answer again, after a range without one."""
-    rests: list[dict[str, Any]]
+    rests: Records
     """Without dither and without runs: ``value`` at which the surface of a ``contact`` comes to rest."""
     from_: float
     """First value of the parameter."""
     to: float
     """Last value of the parameter."""
-    from_rest: list[dict[str, Any]]
+    from_rest: Records
     """On request: ``value`` with its ``error``, and the outcome of runs from rest above it, ``becomes``: "quenched", "not quenched" or
     "unknown"; ``kind`` of the threshold of the run's orbit, or ``None`` where the run changes to another motion."""
-    from_sliding: list[dict[str, Any]]
+    from_sliding: Records
     """The same for runs from steady sliding."""
-    from_squeal: list[dict[str, Any]]
+    from_squeal: Records
     """The same for runs from full squeal."""
-    from_start: list[dict[str, Any]]
+    from_start: Records
     """The same for runs from ``start``."""
-    at_from: dict[str, Any]
+    at_from: FrozenDict[Any]
     """The outcome at the first value, by protocol, and the ``verdict`` on the response; without dither and without runs the verdict on
     ``steady_sliding``."""
     values_tried: int
     """Number of values at which runs were judged."""
     ramp: float
     """Time over which the dither of the runs grows."""
-    thresholds: list[dict[str, Any]]
+    thresholds: Records
     """Without dither and without runs: the list ``local``."""
     protocol: str
     """The method."""
     points: int
     """Without dither and without runs: number of values at which eigenvalues were computed."""
-    unknown: list[dict[str, Any]]
+    unknown: Records
     """Without dither and without runs: ``from`` and ``to`` of ranges without an answer, and ``why``."""
     state_names: list[str]
     """Names of the numbers of a state."""
@@ -94,11 +94,11 @@ class ThresholdCurves(_columns.ThresholdCurvesColumns, Result):
     """Path of the parameter whose thresholds are continued."""
     along: str
     """Path of the second parameter."""
-    curves: list[dict[str, Any]]
+    curves: Records
     """``kind``, ``value`` (n,), ``along`` (n,) of each curve, and with dither ``multiplier_modulus`` (n,), ``ends``, ``state`` (n, m) and
     the ``contacts`` that graze or open. ``criticality`` (n,) and ``first_lyapunov_coefficient`` (n,)
     of each point, or ``None`` with its reason in ``criticality_reason`` (n,); of folds ``opens_towards`` (n,) likewise."""
-    averaged: list[dict[str, Any]]
+    averaged: Records
     """With dither: boundaries of averaging: whether in the ``limit`` R → ∞, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
     from_: float
     """First value of the parameter."""
@@ -122,14 +122,14 @@ class Bifurcation(_columns.BifurcationColumns, Result):
     """Unit of its values."""
     start: str
     """The start of the first sweep."""
-    jumps: list[dict[str, Any]]
+    jumps: Records
     """``direction``, ``before`` and ``after``: values between which the quiet response is left or reached; ``becomes``."""
     hysteresis: list[list[float]] | None
     """First and last value of each interval in which up and down differ; ``None`` if only one direction was swept."""
-    up: list[dict[str, Any]]
+    up: Records
     """Points of the sweep up: ``value``, ``local_verdict``, ``settled``, ``quiet``, ``kind``, ``periods``, ``rotation_number``,
     ``section_displacement`` (n,), …"""
-    down: list[dict[str, Any]]
+    down: Records
     """Points of the sweep down."""
     protocol: str
     """The method."""
@@ -149,12 +149,12 @@ class Ramp(_columns.RampColumns, Result):
     """Its largest value."""
     until: float
     """End of the run, at the last knot."""
-    switches: list[dict[str, Any]]
+    switches: Records
     """``time`` and ``value`` at which the run begins or ceases to vibrate, ``becomes``, and the exact ``threshold`` at which the base
     response changes in the same sense, with the ``threshold_time`` at which the ramp passes it."""
-    thresholds: list[dict[str, Any]] | None
+    thresholds: Records | None
     """Exact thresholds of the base response at constant values: ``value``, ``kind``, ``becomes``."""
-    manoeuvre: dict[str, Any]
+    manoeuvre: FrozenDict[Any]
     """When the run vibrates, as in :class:`quell.results.Simulation`."""
 
 
@@ -164,7 +164,7 @@ class Basins(_columns.BasinsColumns, Result):
     verb = "basins"
     starts: int
     """Number of starts."""
-    layout: dict[str, Any]
+    layout: FrozenDict[Any]
     """``grid``: numbers of values of both numbers; or ``sample`` and ``seed``."""
     error_meaning: str
     """Meaning of the bounds of the fractions."""
@@ -176,9 +176,9 @@ class Basins(_columns.BasinsColumns, Result):
     """Its upper bound, in which starts with an unknown outcome count."""
     local_verdict: str
     """Verdict on the base response, without dither on steady sliding."""
-    attractors: list[dict[str, Any]]
+    attractors: Records
     """``words``, ``starts``, ``fraction``, ``fraction_low``, ``fraction_high``, ``quiet``, ``kind``, … of each response."""
-    unknown: dict[str, Any]
+    unknown: FrozenDict[Any]
     """``starts`` with an unknown outcome, and their ``fraction``."""
     ends: list[int]
     """Index of the attractor of each start."""
@@ -186,7 +186,7 @@ class Basins(_columns.BasinsColumns, Result):
     """With ``over``: path of the parameter."""
     unit: str
     """With ``over``: unit of its values."""
-    portraits: list[dict[str, Any]]
+    portraits: Records
     """With ``over``: the fractions and attractors, by ``value``."""
     protocol: str
     """The method."""
@@ -216,9 +216,9 @@ class Map(_columns.MapColumns, Result, Mapping[str, Any]):
     """Number of points."""
     resumed_points: int
     """Points that the store already had."""
-    axes: list[dict[str, Any]]
+    axes: Records
     """``parameter``, ``name``, ``unit`` and ``values`` of each axis."""
-    counts: dict[str, dict[str, int]]
+    counts: FrozenDict[FrozenDict[int]]
     """Number of points by status, for each quantity."""
 
     def _is_entry(self, fact: str) -> bool:
