@@ -7,13 +7,13 @@ import pickle
 import re
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
-import declare
 import gallery
 import numpy as np
 import pytest
 
 import quell
-from quell import _frozen
+from quell import _frozen, results
+from quell._names import attributes
 from quell._result import REPORTED_ELSEWHERE
 
 CLASSES = [cls for name, cls in vars(quell.results).items() if isinstance(cls, type) and issubclass(cls, quell.results.Result)]
@@ -31,6 +31,22 @@ def hints(cls: type) -> dict[str, Any]:
 def attribute(fact: str) -> str:
     """The attribute of a fact: ``from`` is a keyword."""
     return "from_" if fact == "from" else fact
+
+
+def of_the_study(result: results.Result) -> set[str]:
+    """Names of arrays that depend on the study: coordinates, contacts and parameters, and uncertain numbers."""
+    facts = result.facts
+    names = {it for key in ("coordinates", "state_names", "plane") for it in facts.get(key, [])}
+    names |= {it["parameter"] for it in facts.get("axes", [])} | {str(facts.get(key)) for key in ("parameter", "along")}
+    names |= {name.removeprefix("belt.") for name in names}
+    found = set(attributes(names).values())
+    study = result.study
+    contacts = [it["name"] for it in study.check().facts.get("contacts", [])] if isinstance(study, quell.System) else []
+    starts = [f"{attributes([name])[name]}_" for name in contacts] + ["shape_", "slip_of_", "velocity_"]
+    depending = {name for name in result.arrays if isinstance(study, quell.System) and name.startswith(tuple(starts))}
+    depending -= {name for name in depending if name.startswith("shape_at")}
+    depending |= {f"state_{name}" for name in attributes(set(facts.get("state_names", []))).values()}
+    return found | depending | {name for name in result.arrays if re.search(r"_\d+$", name)}
 
 
 def fits(value: Any, hint: Any) -> bool:
@@ -60,7 +76,7 @@ def test_every_fact_and_array_is_declared_with_its_type(call: str) -> None:
     assert isinstance(result.facts.get("why", {}), dict)
     facts = {attribute(name) for name in result.facts if name not in REPORTED_ELSEWHERE}
     assert facts <= known, f"not declared: {sorted(facts - known)}"
-    arrays = {name for name in result.arrays if name.isidentifier()} - declare.of_the_study(result) - set(result.arrays.paths)
+    arrays = {name for name in result.arrays if name.isidentifier()} - of_the_study(result) - set(result.arrays.paths)
     assert arrays <= known, f"not declared: {sorted(arrays - known)}"
     wrong = {}
     for name, hint in declared.items():
@@ -82,10 +98,6 @@ def test_every_declared_name_is_given_by_some_verb() -> None:
         if cls.__name__ not in WITHOUT_EXAMPLE:
             nowhere = set(hints(cls)) - given[cls] - {"sentence"}
             assert not nowhere, f"{cls.__name__}: {sorted(nowhere)}"
-
-
-def test_the_file_of_columns_is_up_to_date() -> None:
-    assert declare.FILE.read_text("utf-8") == declare.text(), "python tests/declare.py writes it"
 
 
 def test_facts_come_before_arrays_and_every_name_is_an_entry() -> None:

@@ -372,8 +372,8 @@ class Result(Frozen):
         """Whether the class documents a fact of this name, which an array of the same name does not replace."""
         from inspect import get_annotations
 
-        classes = (cls for cls in type(self).__mro__ if not cls.__name__.endswith("Columns"))
-        return any(name in get_annotations(cls) for cls in classes)
+        declared = (get_annotations(cls).get(name) for cls in type(self).__mro__)
+        return any(hint is not None and "NDArray" not in hint for hint in declared)
 
     def __dir__(self) -> list[str]:
         names = map(attribute, {*self.facts, *(name for name in self.arrays if name not in self.arrays.paths)})

@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from .._frozen import FrozenDict, Records
 from .._result import Result, numbers_of
-from . import _columns
 from ._steady import Verdict
 
 if TYPE_CHECKING:
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
     from .._tables import Number
 
 
-class Simulation(_columns.SimulationColumns, Result):
+class Simulation(Result):
     """A trajectory: its end, its events, its samples."""
 
     verb = "simulate"
@@ -59,6 +58,20 @@ class Simulation(_columns.SimulationColumns, Result):
     """Disc: growth rate of the small motion at the start, in ω_ref."""
     leading_frequency: float
     """Disc: frequency of that motion, in ω_ref."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    displacement: npt.NDArray[np.float64]
+    """Observed displacement (n,)."""
+    velocity: npt.NDArray[np.float64]
+    """Observed velocity (n,)."""
+    belt_slip_velocity: npt.NDArray[np.float64]
+    """Belt: slip velocity (n,)."""
+    belt_friction: npt.NDArray[np.float64]
+    """Belt: friction force (n,)."""
+    belt_normal: npt.NDArray[np.float64]
+    """Belt: normal load (n,)."""
+    belt_phase: npt.NDArray[np.uint8]
+    """Belt: code of slip, stick or open (n,)."""
 
     def events_frame(self) -> pandas.DataFrame:
         """The events as a pandas DataFrame, one row for each, in the units of the study.
@@ -88,7 +101,7 @@ class Simulation(_columns.SimulationColumns, Result):
         return self.study.simulate(until, events=events, samples=samples, t_eval=t_eval, start=self.final)
 
 
-class Window(_columns.WindowColumns, Result):
+class Window(Result):
     """What a run does between two of its times."""
 
     verb = "response --window"
@@ -109,9 +122,13 @@ class Window(_columns.WindowColumns, Result):
     contacts: Records
     """What each contact did on average: ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``,
     ``least_normal``, ``friction_power``."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    displacement: npt.NDArray[np.float64]
+    """Observed displacement (n,)."""
 
 
-class NoiseResponse(_columns.NoiseResponseColumns, Result):
+class NoiseResponse(Result):
     """The response under noise: runs with different seeds."""
 
     verb = "response"
@@ -155,9 +172,15 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     """Time before the record."""
     record_length: float
     """Length of the record."""
+    seed: npt.NDArray[np.float64]
+    """Seed of each run (n,)."""
+    stick_fraction: npt.NDArray[np.float64]
+    """Fraction of the record in stick (n,)."""
+    mean_friction: npt.NDArray[np.float64]
+    """Mean friction (n,)."""
 
 
-class Response(_columns.ResponseColumns, Result):
+class Response(Result):
     """The steady response with and without dither."""
 
     verb = "response"
@@ -236,9 +259,25 @@ class Response(_columns.ResponseColumns, Result):
     """Time before the record."""
     record_length: float
     """Length of the record."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    displacement: npt.NDArray[np.float64]
+    """Observed displacement (n,)."""
+    velocity: npt.NDArray[np.float64]
+    """Observed velocity (n,)."""
+    undithered_displacement: npt.NDArray[np.float64]
+    """The displacement without dither (n,)."""
+    undithered_velocity: npt.NDArray[np.float64]
+    """The velocity without dither (n,)."""
+    frequency: npt.NDArray[np.float64]
+    """Angular frequency (m,) of the spectrum."""
+    spectrum_amplitude: npt.NDArray[np.float64]
+    """Amplitude (m,) of the displacement."""
+    spectrum_undithered_amplitude: npt.NDArray[np.float64]
+    """The same without dither (m,)."""
 
 
-class Orbit(_columns.OrbitColumns, Result):
+class Orbit(Result):
     """A periodic response and its Floquet multipliers."""
 
     verb = "orbit"
@@ -297,6 +336,16 @@ class Orbit(_columns.OrbitColumns, Result):
     """Without dither: the starts from which a limit cycle was searched."""
     steady_sliding: str
     """Without dither: the verdict on steady sliding."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,) of a period."""
+    belt_slip_velocity: npt.NDArray[np.float64]
+    """Belt: slip velocity (n,)."""
+    belt_friction: npt.NDArray[np.float64]
+    """Belt: friction force (n,)."""
+    belt_normal: npt.NDArray[np.float64]
+    """Belt: normal load (n,)."""
+    belt_phase: npt.NDArray[np.uint8]
+    """Belt: code of slip, stick or open (n,)."""
 
     @property
     def multipliers(self) -> npt.NDArray[np.complex128]:
@@ -304,7 +353,7 @@ class Orbit(_columns.OrbitColumns, Result):
         return numbers_of(self.facts["multipliers"] or [])
 
 
-class Attractor(_columns.AttractorColumns, Result):
+class Attractor(Result):
     """The motion on which a run ends, and its Lyapunov exponents."""
 
     verb = "attractor"
@@ -320,3 +369,5 @@ class Attractor(_columns.AttractorColumns, Result):
     ``verdict`` ("regular", "irregular (chaotic)", "unknown"); ``deciding``, the largest exponent apart from the 0 of a shift in
     time, whose place is ``shift_in_time``; ``kaplan_yorke_dimension``; ``of_multiplier``, the same rate by the multipliers of a
     periodic motion, and ``agrees_with_multipliers``."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,) of the motion."""

@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from .._frozen import FrozenDict, Records
 from .._result import Result, numbers_of
-from . import _columns
 
 if TYPE_CHECKING:
     from .._quell import NativeAnswer
@@ -65,7 +64,7 @@ class Citations(Result):
     """The sources as BibTeX entries."""
 
 
-class FrictionCurve(_columns.FrictionCurveColumns, Result):
+class FrictionCurve(Result):
     """The friction law of every contact and its average under the dither: arrays have one row for each contact and slip velocity (n,),
     those of a belt one row for each slip velocity."""
 
@@ -74,26 +73,18 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
     """``name``, ``surface_velocity``, the largest ``fast_velocity``, the ``law`` with its parameters and the range of slip in which it holds,
     and over ``slip_velocity``: ``coefficient``, ``effective_coefficient`` and ``effective_slope`` with their errors and whether the slope is
     ``effective_slope_one_sided``; measured also ``measured_verdict`` and ``measured_base``."""
-
-    @property
-    def slip_velocity(self) -> npt.NDArray[np.float64]:
-        """v_r (n,), in the unit of the study."""
-        return self.arrays["slip_velocity"].values
-
-    @property
-    def coefficient(self) -> npt.NDArray[np.float64]:
-        """μ (n,); NaN at v_r = 0, where friction takes any value up to ±μ_s."""
-        return self.arrays["coefficient"].values
-
-    @property
-    def effective_coefficient(self) -> npt.NDArray[np.float64]:
-        """μ̄ (n,); NaN where it is undefined."""
-        return self.arrays["effective_coefficient"].values
-
-    @property
-    def effective_slope(self) -> npt.NDArray[np.float64]:
-        """μ̄′ (n,) per unit of ``slip_velocity``; NaN where it is undefined."""
-        return self.arrays["effective_slope"].values
+    row: npt.NDArray[np.float64]
+    """Number of each row."""
+    contact_number: npt.NDArray[np.float64]
+    """Contact of each row, counted from 0."""
+    slip_velocity: npt.NDArray[np.float64]
+    """v_r (n,), in the unit of the study."""
+    coefficient: npt.NDArray[np.float64]
+    """μ (n,); NaN at v_r = 0, where friction takes any value up to ±μ_s."""
+    effective_coefficient: npt.NDArray[np.float64]
+    """μ̄ (n,); NaN where it is undefined."""
+    effective_slope: npt.NDArray[np.float64]
+    """μ̄′ (n,) per unit of ``slip_velocity``; NaN where it is undefined."""
 
     @property
     def limit_effective_coefficient(self) -> npt.NDArray[np.float64] | None:
@@ -127,7 +118,7 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
         return None if found is None else found.values
 
 
-class DescribingFunction(_columns.DescribingFunctionColumns, Result):
+class DescribingFunction(Result):
     """Averaged friction of every contact under a slow sinusoid of its slip velocity; arrays have one row for each contact
     and velocity amplitude."""
 
@@ -152,9 +143,21 @@ class DescribingFunction(_columns.DescribingFunctionColumns, Result):
     limit: FrozenDict[Any] | None
     """One mass under dither: ``small_gain``, ``limit_cycle_velocity``, ``limit_cycle_amplitude`` and ``limit_cycles`` in the limit of high
     dither frequency."""
+    row: npt.NDArray[np.float64]
+    """Number of each row."""
+    contact_number: npt.NDArray[np.float64]
+    """Contact of each row, counted from 0."""
+    velocity_amplitude: npt.NDArray[np.float64]
+    """Velocity amplitude (n,) of the sinusoid."""
+    mean_coefficient: npt.NDArray[np.float64]
+    """Mean of the averaged coefficient (n,)."""
+    gain: npt.NDArray[np.float64]
+    """Describing function (n,), per unit of velocity."""
+    undithered_gain: npt.NDArray[np.float64]
+    """The same without dither (n,)."""
 
 
-class Design(_columns.DesignColumns, Result):
+class Design(Result):
     """The least dither that is quiet over a box of operating points; arrays over the choices that were tried (n,)."""
 
     verb = "design"
@@ -237,14 +240,19 @@ class Design(_columns.DesignColumns, Result):
     """The same as percents of amplitude per percent of the number."""
     threshold: FrozenDict[Any] | None
     """``kind`` of the threshold that decides, and the one that it ``meets`` at a tip."""
+    number: npt.NDArray[np.float64]
+    """Number of each choice (n,)."""
+    amplitude: npt.NDArray[np.float64]
+    """Amplitude of each choice (n,); numbers that are searched have arrays of their keys."""
+    dither_frequency_ratio: npt.NDArray[np.float64]
+    """Frequency ratio of each choice (n,), if it is searched."""
+    dither_frequency_hz: npt.NDArray[np.float64]
+    """Frequency of each choice (n,) in Hz, if it is searched."""
+    used: npt.NDArray[np.float64]
+    """Largest use of a limit at each choice (n,): at most 1 where every limit is kept."""
 
-    @property
-    def used(self) -> npt.NDArray[np.float64]:
-        """Largest use of a limit at each choice (n,): at most 1 where every limit is kept."""
-        return self.arrays["used"].values
 
-
-class Actuator(_columns.ActuatorColumns, Result):
+class Actuator(Result):
     """What the actuator can give over the frequency of the dither, and what quenching needs; arrays over the frequency (n,), with the largest
     slip velocity of the dither at each contact, at the largest amplitude, in ``slip_of_`` and its name."""
 
@@ -277,41 +285,22 @@ class Actuator(_columns.ActuatorColumns, Result):
     """Each ``frequency`` at which the limit changes: the one ``below`` and the one ``above``."""
     resonances: Records
     """Frequencies at which little dither suffices, and whether each ``helps``."""
-
-    @property
-    def frequency(self) -> npt.NDArray[np.float64]:
-        """Angular frequency of the dither (n,), in the unit of the study; without units over ω₀ of a belt, which is R."""
-        return self.arrays["frequency"].values
-
-    @property
-    def amplitude(self) -> npt.NDArray[np.float64]:
-        """Largest amplitude that the actuator can give (n,); NaN where it is unknown."""
-        return self.arrays["amplitude"].values
-
-    @property
-    def needed(self) -> npt.NDArray[np.float64]:
-        """Least amplitude that quenches by averaging (n,); NaN where none does."""
-        return self.arrays["needed"].values
-
-    @property
-    def margin(self) -> npt.NDArray[np.float64]:
-        """The largest amplitude over the least one (n,)."""
-        return self.arrays["margin"].values
-
-    @property
-    def voltage(self) -> npt.NDArray[np.float64]:
-        """Peak of the voltage about its mean at the largest amplitude (n,), in V."""
-        return self.arrays["voltage"].values
-
-    @property
-    def current(self) -> npt.NDArray[np.float64]:
-        """Peak of the current about its mean at the largest amplitude (n,), in A."""
-        return self.arrays["current"].values
-
-    @property
-    def stroke(self) -> npt.NDArray[np.float64]:
-        """Peak-to-peak displacement of the driven point at the largest amplitude (n,)."""
-        return self.arrays["stroke"].values
+    slip_of_belt: npt.NDArray[np.float64]
+    """Belt: largest slip velocity of the dither (n,), at the largest amplitude."""
+    frequency: npt.NDArray[np.float64]
+    """Angular frequency of the dither (n,), in the unit of the study; without units over ω₀ of a belt, which is R."""
+    amplitude: npt.NDArray[np.float64]
+    """Largest amplitude that the actuator can give (n,); NaN where it is unknown."""
+    needed: npt.NDArray[np.float64]
+    """Least amplitude that quenches by averaging (n,); NaN where none does."""
+    margin: npt.NDArray[np.float64]
+    """The largest amplitude over the least one (n,)."""
+    voltage: npt.NDArray[np.float64]
+    """Peak of the voltage about its mean at the largest amplitude (n,), in V."""
+    current: npt.NDArray[np.float64]
+    """Peak of the current about its mean at the largest amplitude (n,), in A."""
+    stroke: npt.NDArray[np.float64]
+    """Peak-to-peak displacement of the driven point at the largest amplitude (n,)."""
 
     @property
     def limit(self) -> npt.NDArray[np.str_]:
@@ -356,19 +345,13 @@ class Probability(Result):
     """Indices of each group of correlated numbers, ``of``."""
     invalid: int
     """Samples that are no valid studies and are left out."""
-
-    @property
-    def share(self) -> npt.NDArray[np.float64]:
-        """Share of the samples (n,) up to each growth rate."""
-        return self.arrays["share"].values
-
-    @property
-    def growth(self) -> npt.NDArray[np.float64]:
-        """Growth rate (n,), ascending."""
-        return self.arrays["growth"].values
+    share: npt.NDArray[np.float64]
+    """Share of the samples (n,) up to each growth rate."""
+    growth: npt.NDArray[np.float64]
+    """Growth rate (n,), ascending."""
 
 
-class Waveforms(_columns.WaveformsColumns, Result):
+class Waveforms(Result):
     """The least dither of each waveform that quenches, and its cost; arrays over the waveforms (n,)."""
 
     verb = "waveforms"
@@ -382,32 +365,24 @@ class Waveforms(_columns.WaveformsColumns, Result):
     """What ranks the waveforms: "exact", or "averaging" where none has an exact amplitude."""
     best: FrozenDict[str | None]
     """Label of the waveform that is smallest in amplitude, rms force, power, stroke and velocity, of those that are ranked."""
+    number: npt.NDArray[np.float64]
+    """Number of each waveform (n,)."""
+    waveform: npt.NDArray[np.uint8]
+    """Code of each waveform (n,)."""
+    amplitude: npt.NDArray[np.float64]
+    """Least amplitude by averaging (n,), in the unit of the study; NaN where no amplitude quenches."""
+    root_mean_square: npt.NDArray[np.float64]
+    """Root mean square of that force (n,)."""
+    power: npt.NDArray[np.float64]
+    """Mean power into the structure without friction, of a system into the sliding structure (n,)."""
+    stroke: npt.NDArray[np.float64]
+    """Peak-to-peak displacement of the mass without friction, of a system at the driven point (n,)."""
 
     @property
     def duty_cycle(self) -> npt.NDArray[np.float64] | None:
         """Share of the period in which the dither acts (n,): 1 except for bursts."""
         found = self.arrays.get("duty_cycle")
         return None if found is None else found.values
-
-    @property
-    def amplitude(self) -> npt.NDArray[np.float64]:
-        """Least amplitude by averaging (n,), in the unit of the study; NaN where no amplitude quenches."""
-        return self.arrays["amplitude"].values
-
-    @property
-    def root_mean_square(self) -> npt.NDArray[np.float64]:
-        """Root mean square of that force (n,)."""
-        return self.arrays["root_mean_square"].values
-
-    @property
-    def power(self) -> npt.NDArray[np.float64]:
-        """Mean power into the structure without friction, of a system into the sliding structure (n,)."""
-        return self.arrays["power"].values
-
-    @property
-    def stroke(self) -> npt.NDArray[np.float64]:
-        """Peak-to-peak displacement of the mass without friction, of a system at the driven point (n,)."""
-        return self.arrays["stroke"].values
 
     @property
     def velocity(self) -> npt.NDArray[np.float64] | None:
@@ -479,7 +454,7 @@ class Stability(Result):
         return numbers_of(self._named("eigenvalues"))
 
 
-class TrackedStability(_columns.TrackedStabilityColumns, Result):
+class TrackedStability(Result):
     """Eigenvalues of a system over a parameter, and its thresholds.
 
     The dataset has ``growth_rate`` and ``frequency`` over ``parameter`` and ``branch``; with a second parameter their names begin
@@ -518,6 +493,22 @@ class TrackedStability(_columns.TrackedStabilityColumns, Result):
     """First and last value of the second parameter."""
     curves: Records
     """``kind``, ``value`` (n,), ``along`` (n,), ``error`` (n,), ``frequency`` (n,), ``was`` and ``becomes`` of each curve."""
+    branch: npt.NDArray[np.float64]
+    """Number of each eigenvalue."""
+    growth_rate: npt.NDArray[np.float64]
+    """Growth rate over the parameter and the branch."""
+    frequency: npt.NDArray[np.float64]
+    """Angular frequency over the parameter and the branch."""
+    eigenvalues_growth_rate: npt.NDArray[np.float64]
+    """Growth rate, with a second parameter."""
+    eigenvalues_frequency: npt.NDArray[np.float64]
+    """Angular frequency, with a second parameter."""
+    point: npt.NDArray[np.float64]
+    """Number of each point (n,) of the curves."""
+    curve: npt.NDArray[np.float64]
+    """Curve of each point (n,)."""
+    kind: npt.NDArray[np.uint8]
+    """Code of the kind of threshold at each point (n,)."""
 
 
 class ExactStability(Result):
@@ -549,7 +540,7 @@ class ExactStability(Result):
         return numbers_of([it["multiplier"] for it in self.exponents])
 
 
-class Modes(_columns.ModesColumns, Result):
+class Modes(Result):
     """Natural frequencies and shapes of a disc or of a system."""
 
     verb = "modes"
@@ -566,9 +557,29 @@ class Modes(_columns.ModesColumns, Result):
     """Disc: ω_ref in rad/s."""
     plate_mass: float | None
     """Disc: mass of the plate, in kg."""
+    mode: npt.NDArray[np.float64]
+    """Number of each mode (n,)."""
+    frequency: npt.NDArray[np.float64]
+    """System: angular frequency (n,)."""
+    damping_ratio: npt.NDArray[np.float64]
+    """System: damping ratio (n,)."""
+    radial: npt.NDArray[np.float64]
+    """Disc: number of nodal circles (n,)."""
+    diameters: npt.NDArray[np.float64]
+    """Disc: number of nodal diameters (n,)."""
+    frequency_parameter: npt.NDArray[np.float64]
+    """Disc: k² (n,)."""
+    ratio: npt.NDArray[np.float64]
+    """Disc: frequency over ω_ref (n,)."""
+    frequency_hz: npt.NDArray[np.float64]
+    """Disc with units: frequency (n,) in Hz."""
+    shape_at_load: npt.NDArray[np.float64]
+    """Disc: shape at the first load (n,)."""
+    damping: npt.NDArray[np.float64]
+    """Disc: damping (n,)."""
 
 
-class Resonances(_columns.ResonancesColumns, Result):
+class Resonances(Result):
     """Meetings of the waves of a disc, or responses of the contacts of a system to its dithers."""
 
     verb = "resonances"
@@ -600,3 +611,21 @@ class Resonances(_columns.ResonancesColumns, Result):
     """System: least frequency."""
     to: float
     """System: largest frequency."""
+    frequency: npt.NDArray[np.float64]
+    """System: angular frequency (n,) of the dither."""
+    meeting: npt.NDArray[np.float64]
+    """Disc: number of each meeting (n,)."""
+    speed: npt.NDArray[np.float64]
+    """Disc: speed (n,) at which the waves meet."""
+    harmonic: npt.NDArray[np.float64]
+    """Disc: harmonic (n,) of the dither, 0 without dither."""
+    pair_can_be_unstable: npt.NDArray[np.float64]
+    """Disc: 1 where a pair of waves can be unstable (n,), at the order of the theory."""
+    threshold: npt.NDArray[np.float64]
+    """Disc: friction (n,) from which it is unstable."""
+    lower_edge: npt.NDArray[np.float64]
+    """Disc: lower end (n,) of the unstable speeds."""
+    upper_edge: npt.NDArray[np.float64]
+    """Disc: upper end (n,) of the unstable speeds."""
+    peak_growth: npt.NDArray[np.float64]
+    """Disc: largest growth rate (n,)."""

@@ -13,13 +13,12 @@ from .. import _dataset
 from .._errors import StudyError, complaint
 from .._frozen import FrozenDict, Records, frozen
 from .._result import Result
-from . import _columns
 
 if TYPE_CHECKING:
     from .._study import Study
 
 
-class Thresholds(_columns.ThresholdsColumns, Result):
+class Thresholds(Result):
     """Values of a parameter at which the response changes."""
 
     verb = "thresholds"
@@ -84,9 +83,19 @@ class Thresholds(_columns.ThresholdsColumns, Result):
     """Names of the numbers of a state."""
     ending: str | None
     """How the continuation ended."""
+    point: npt.NDArray[np.float64]
+    """Number of each point (n,) of the branch."""
+    radius: npt.NDArray[np.float64]
+    """Modulus of the decisive multiplier (n,)."""
+    branch: npt.NDArray[np.float64]
+    """Without dither: number of each eigenvalue."""
+    growth_rate: npt.NDArray[np.float64]
+    """Without dither: growth rate over the parameter and the branch."""
+    frequency: npt.NDArray[np.float64]
+    """Without dither: angular frequency over the parameter and the branch."""
 
 
-class ThresholdCurves(_columns.ThresholdCurvesColumns, Result):
+class ThresholdCurves(Result):
     """Curves of thresholds in the plane of two parameters."""
 
     verb = "thresholds"
@@ -110,9 +119,17 @@ class ThresholdCurves(_columns.ThresholdCurvesColumns, Result):
     """The method."""
     state_names: list[str]
     """Names of the numbers of a state."""
+    point: npt.NDArray[np.float64]
+    """Number of each point (n,) of the curves."""
+    curve: npt.NDArray[np.float64]
+    """Curve of each point (n,)."""
+    kind: npt.NDArray[np.uint8]
+    """Code of the kind of threshold at each point (n,)."""
+    multiplier_modulus: npt.NDArray[np.float64]
+    """Modulus of the decisive multiplier (n,)."""
 
 
-class Bifurcation(_columns.BifurcationColumns, Result):
+class Bifurcation(Result):
     """The response along a parameter, swept up and down."""
 
     verb = "bifurcation"
@@ -135,9 +152,41 @@ class Bifurcation(_columns.BifurcationColumns, Result):
     """The method."""
     most_periods: int
     """System: most periods of a run at one value."""
+    row: npt.NDArray[np.float64]
+    """Number of each point (n,) of both sweeps."""
+    direction: npt.NDArray[np.uint8]
+    """Code of the direction of the sweep (n,)."""
+    kind: npt.NDArray[np.uint8]
+    """Code of the kind of motion (n,)."""
+    quiet: npt.NDArray[np.uint8]
+    """Code of whether it has no slow vibration (n,)."""
+    local_verdict: npt.NDArray[np.uint8]
+    """Code of the verdict on the base response (n,)."""
+    periods: npt.NDArray[np.float64]
+    """Dither periods in one period of the motion (n,)."""
+    periods_to_settle: npt.NDArray[np.float64]
+    """Dither periods until the run was near it (n,)."""
+    rotation_number: npt.NDArray[np.float64]
+    """Rotation number (n,)."""
+    rotation_error: npt.NDArray[np.float64]
+    """Its error (n,)."""
+    locking_turns: npt.NDArray[np.float64]
+    """Cycles of a locked motion (n,)."""
+    locking_periods: npt.NDArray[np.float64]
+    """Dither periods of these cycles (n,)."""
+    frequency: npt.NDArray[np.float64]
+    """Angular frequency of the slow vibration (n,)."""
+    peak_to_peak: npt.NDArray[np.float64]
+    """Peak-to-peak displacement (n,)."""
+    section_displacement: npt.NDArray[np.float64]
+    """Displacement in the stroboscopic section (n,)."""
+    section_velocity: npt.NDArray[np.float64]
+    """Velocity in the stroboscopic section (n,)."""
+    belt_stick_fraction: npt.NDArray[np.float64]
+    """Belt: fraction of the time in stick (n,)."""
 
 
-class Ramp(_columns.RampColumns, Result):
+class Ramp(Result):
     """One run in which a drive, a load or an amplitude changes slowly, compared with the exact thresholds."""
 
     verb = "bifurcation --ramp"
@@ -156,9 +205,17 @@ class Ramp(_columns.RampColumns, Result):
     """Exact thresholds of the base response at constant values: ``value``, ``kind``, ``becomes``."""
     manoeuvre: FrozenDict[Any]
     """When the run vibrates, as in :class:`quell.results.Simulation`."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    value: npt.NDArray[np.float64]
+    """Value of the number that changes (n,)."""
+    displacement: npt.NDArray[np.float64]
+    """Observed displacement (n,)."""
+    velocity: npt.NDArray[np.float64]
+    """Observed velocity (n,)."""
 
 
-class Basins(_columns.BasinsColumns, Result):
+class Basins(Result):
     """The responses on which starts in a window end, and the fraction of each."""
 
     verb = "basins"
@@ -204,10 +261,17 @@ class Basins(_columns.BasinsColumns, Result):
     """Values of the second number of each start."""
     unknown_starts: int
     """Number of starts with an unknown outcome."""
+    attractor: npt.NDArray[np.float64]
+    """Attractor of each start of a grid, NaN where it is unknown."""
+    quiet: npt.NDArray[np.uint8]
+    """Code of whether the end of each start is quiet."""
+    unknown_fraction: npt.NDArray[np.float64]
+    """With ``over``: fraction of the starts with an unknown outcome."""
 
 
-class Map(_columns.MapColumns, Result, Mapping[str, Any]):
-    """Quantities over the axes of a study: a mapping of names to variables over them."""
+class Map(Result, Mapping[str, Any]):
+    """Quantities over the axes of a study: a mapping of names to variables over them. ``NAME_status`` has the codes of the reasons why values
+    of a quantity are missing."""
 
     verb = "map"
     shape: list[int]
@@ -220,6 +284,111 @@ class Map(_columns.MapColumns, Result, Mapping[str, Any]):
     """``parameter``, ``name``, ``unit`` and ``values`` of each axis."""
     counts: FrozenDict[FrozenDict[int]]
     """Number of points by status, for each quantity."""
+    amplitude: npt.NDArray[np.float64]
+    """Largest spectral amplitude M of the observed displacement in the band of slow vibration."""
+    amplitude_status: npt.NDArray[np.uint8]
+    criterion: npt.NDArray[np.float64]
+    """Criterion of stability 2ζ + Fμ̄′ by finite-R averaging: unstable where negative."""
+    criterion_status: npt.NDArray[np.uint8]
+    critical_amplitude: npt.NDArray[np.float64]
+    """Smallest amplitude of the first dither that makes sliding stable, by averaging."""
+    critical_amplitude_status: npt.NDArray[np.uint8]
+    destabilising_amplitude: npt.NDArray[np.float64]
+    """Smallest amplitude of the first dither that makes sliding unstable, by averaging."""
+    destabilising_amplitude_status: npt.NDArray[np.uint8]
+    dither_power: npt.NDArray[np.float64]
+    """Mean power supplied by tangential dither."""
+    dither_power_status: npt.NDArray[np.uint8]
+    dither_stroke: npt.NDArray[np.float64]
+    """Largest peak-to-peak displacement of a point on which tangential dither acts."""
+    dither_stroke_status: npt.NDArray[np.uint8]
+    effect: npt.NDArray[np.uint8]
+    """Effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it."""
+    effect_status: npt.NDArray[np.uint8]
+    ends_on: npt.NDArray[np.uint8]
+    """The motion on which the run of the study ends: period-1 (in step with the dither), locked, quasi-periodic, not-periodic, limit-cycle, rest."""
+    ends_on_status: npt.NDArray[np.uint8]
+    frequency: npt.NDArray[np.float64]
+    """Angular frequency of the fastest growing motion; of a disc under dither up to multiples of the dither frequency."""
+    frequency_status: npt.NDArray[np.uint8]
+    growth: npt.NDArray[np.float64]
+    """Largest growth rate of small motions, by averaging under dither."""
+    growth_status: npt.NDArray[np.uint8]
+    growth_error: npt.NDArray[np.float64]
+    """Bound on its error."""
+    growth_error_status: npt.NDArray[np.uint8]
+    growth_undithered: npt.NDArray[np.float64]
+    """Largest growth rate without dither."""
+    growth_undithered_status: npt.NDArray[np.uint8]
+    growth_undithered_error: npt.NDArray[np.float64]
+    """Bound on its error."""
+    growth_undithered_error_status: npt.NDArray[np.uint8]
+    growth_verdict: npt.NDArray[np.uint8]
+    """Code of the verdict by its sign, undecided within the error."""
+    growth_verdict_status: npt.NDArray[np.uint8]
+    limit_criterion: npt.NDArray[np.float64]
+    """Criterion of averaged stability 2ζ + Fμ̄′ (2.26) in the limit R → ∞."""
+    limit_criterion_status: npt.NDArray[np.uint8]
+    limit_critical_amplitude: npt.NDArray[np.float64]
+    """Smallest amplitude ratio α = D/R of the first dither at which averaged stability changes in the limit R → ∞."""
+    limit_critical_amplitude_status: npt.NDArray[np.uint8]
+    limit_critical_amplitude_upper: npt.NDArray[np.float64]
+    """The largest of these amplitude ratios."""
+    limit_critical_amplitude_upper_status: npt.NDArray[np.uint8]
+    limit_growth: npt.NDArray[np.float64]
+    """Growth rate of small slow motions by averaging in the limit R → ∞."""
+    limit_growth_status: npt.NDArray[np.uint8]
+    limit_verdict: npt.NDArray[np.uint8]
+    """Averaged verdict (2.26) in the limit of high dither frequency, R → ∞: that of the dissertation."""
+    limit_verdict_status: npt.NDArray[np.uint8]
+    mean_friction: npt.NDArray[np.float64]
+    """Mean friction force of the steady response, of all contacts."""
+    mean_friction_status: npt.NDArray[np.uint8]
+    minimum_normal_load: npt.NDArray[np.float64]
+    """Smallest normal load of a contact in the steady response."""
+    minimum_normal_load_status: npt.NDArray[np.uint8]
+    orbit_radius: npt.NDArray[np.float64]
+    """Modulus of the deciding multiplier of the base response: stable below 1."""
+    orbit_radius_status: npt.NDArray[np.uint8]
+    orbit_verdict: npt.NDArray[np.uint8]
+    """Verdict on the base response by its multipliers."""
+    orbit_verdict_status: npt.NDArray[np.uint8]
+    peak_to_peak: npt.NDArray[np.float64]
+    """Peak-to-peak of the observed displacement of the motion on which the run ends."""
+    peak_to_peak_status: npt.NDArray[np.uint8]
+    quench_amplitude: npt.NDArray[np.float64]
+    """Least amplitude of the first dither from which the base response is stable, exactly."""
+    quench_amplitude_status: npt.NDArray[np.uint8]
+    quench_amplitude_averaged: npt.NDArray[np.float64]
+    """The same by finite-R averaging."""
+    quench_amplitude_averaged_status: npt.NDArray[np.uint8]
+    quench_kind: npt.NDArray[np.uint8]
+    """Code of the kind of that threshold."""
+    quench_kind_status: npt.NDArray[np.uint8]
+    quench_last: npt.NDArray[np.float64]
+    """Amplitude from which every larger one is quiet, up to the limit of the search."""
+    quench_last_status: npt.NDArray[np.uint8]
+    quench_lost: npt.NDArray[np.float64]
+    """Amplitude at which the first range of quiet amplitudes ends."""
+    quench_lost_status: npt.NDArray[np.uint8]
+    residual_vibration: npt.NDArray[np.float64]
+    """Residual vibration E = M₁/M₀ (2.27), the dissertation's efficiency metric: the share that remains under dither; 0 if quenched."""
+    residual_vibration_status: npt.NDArray[np.uint8]
+    settled: npt.NDArray[np.uint8]
+    """Whether the amplitudes of the two halves of the record agree."""
+    settled_status: npt.NDArray[np.uint8]
+    slip_ratio: npt.NDArray[np.float64]
+    """Largest fast slip velocity over the velocity of its surface: from 1 on a contact reverses."""
+    slip_ratio_status: npt.NDArray[np.uint8]
+    stick_fraction: npt.NDArray[np.float64]
+    """Largest fraction of the time that a contact sticks, on the motion on which the run ends."""
+    stick_fraction_status: npt.NDArray[np.uint8]
+    undithered_amplitude: npt.NDArray[np.float64]
+    """Spectral amplitude M₀ of the run without dither."""
+    undithered_amplitude_status: npt.NDArray[np.uint8]
+    verdict: npt.NDArray[np.uint8]
+    """Verdict on steady sliding, by averaging under dither: stable or unstable, undecided within its error."""
+    verdict_status: npt.NDArray[np.uint8]
 
     def _is_entry(self, fact: str) -> bool:
         return False
