@@ -57,7 +57,7 @@ def fits(value: Any, hint: Any) -> bool:
         return value in get_args(hint)
     if hint is float:
         return isinstance(value, (int, float)) and not isinstance(value, bool)
-    if get_origin(hint) in (list, quell.results.FrozenDict):
+    if get_origin(hint) in (list, results.FrozenDict):
         return isinstance(value, get_origin(hint))
     if get_origin(hint) is np.ndarray:
         kind = get_args(get_args(hint)[1])[0]
@@ -135,7 +135,7 @@ def test_parts_of_facts_are_attributes() -> None:
     assert {"frequency", "keys"} <= set(dir(actuator.best)) and {"from_", "best"} <= set(dir(actuator.sufficient))  # type: ignore[attr-defined]
     local = gallery.result("thresholds").local  # type: ignore[attr-defined]
     assert np.array_equal(local.value, [one.value for one in local]) and np.array_equal(local["value"], local.value)
-    assert local.kind.dtype.kind == "U" and not local.value.flags.writeable and len(type(local)([]).value) == 0
+    assert local.kind.dtype.kind == "U" and not local.value.flags.writeable
     with pytest.raises(AttributeError, match=r"Actuator has no best_amplitude, but best\.amplitude, and with its unit result\['best_amplitude'\]"):
         _ = actuator.best_amplitude  # type: ignore[attr-defined]
     with pytest.raises(AttributeError, match="no amplitud; did you mean amplitude"):
@@ -152,6 +152,14 @@ def test_parts_of_facts_are_attributes() -> None:
     again = pickle.loads(pickle.dumps(actuator))
     assert again.sufficient.best.frequency[0] == actuator.sufficient.best.frequency[0]  # type: ignore[attr-defined]
     assert type(copy.deepcopy(local)) is list and type(copy.deepcopy(actuator.best)) is dict  # type: ignore[attr-defined]
+
+
+def test_empty_lists_have_columns_and_are_empty_arrays() -> None:
+    empty = gallery.belt().thresholds("dither.amplitude", 0.1, 0.2).local
+    assert empty == [] and isinstance(empty, results.Records) and len(empty.value) == len(empty["error"]) == 0
+    assert np.shape(empty) == np.shape(_frozen.frozen([])) == (0,) and np.asarray(empty).size == 0
+    with pytest.raises(AttributeError, match="no column shape"):
+        _ = empty.shape
 
 
 @pytest.mark.parametrize("call", gallery.CALLS)

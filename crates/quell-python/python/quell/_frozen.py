@@ -137,7 +137,8 @@ class Records(FrozenList[FrozenDict[Any]]):
     def _column(self, name: str) -> Any:
         """A column, or ``None`` if no entry has this name."""
         if not self:
-            return np.array([])
+            # What has attributes of arrays, such as a shape, is taken for an array.
+            return None if hasattr(np.ndarray, name) else read_only(np.array([]))
         key = next((key for key in self._columns() if name in (key, attribute(key))), None)
         if key is None:
             return None
@@ -200,7 +201,7 @@ def as_array(values: Sequence[Any]) -> npt.NDArray[Any]:
 
 def records(values: list[Any]) -> FrozenList[Any]:
     """A list of frozen values; with columns if all are dicts."""
-    return (Records if all(type(it) is FrozenDict for it in values) else FrozenList)(values)
+    return (Records if values and all(type(it) is FrozenDict for it in values) else FrozenList)(values)
 
 
 def frozen(value: Any) -> Any:

@@ -14,7 +14,7 @@ from . import _dataset
 from ._arguments import Arguments
 from ._dataset import Arrays
 from ._errors import StudyError, complaint
-from ._frozen import Frozen, frozen, thawed
+from ._frozen import Frozen, Records, frozen, thawed
 from ._names import attribute, suggestion
 
 if TYPE_CHECKING:
@@ -90,7 +90,10 @@ class Result(Frozen):
     def facts(self) -> Mapping[str, Any]:
         """The facts, as the command line prints them with ``--json``; for a map without its arrays. :meth:`to_dict` copies them."""
         if self._facts is None:
-            self._keep(_facts=frozen(self._alive().facts()))
+            given = self._alive().facts()
+            # An empty list of objects has columns, too; whether it is one of objects, only the class says.
+            empty = {name: Records() for name, value in given.items() if value == [] and "Records" in self._hint(name)}
+            self._keep(_facts=frozen({**given, **empty}))
         known: Mapping[str, Any] = self._facts or {}
         return known
 
@@ -370,10 +373,15 @@ class Result(Frozen):
 
     def _declares(self, name: str) -> bool:
         """Whether the class documents a fact of this name, which an array of the same name does not replace."""
+        hint = self._hint(name)
+        return bool(hint) and "NDArray" not in hint
+
+    @classmethod
+    def _hint(cls, name: str) -> str:
+        """The type of a fact or an array as the class declares it, or nothing."""
         from inspect import get_annotations
 
-        declared = (get_annotations(cls).get(name) for cls in type(self).__mro__)
-        return any(hint is not None and "NDArray" not in hint for hint in declared)
+        return next((str(hints[name]) for hints in map(get_annotations, cls.__mro__) if name in hints), "")
 
     def __dir__(self) -> list[str]:
         names = map(attribute, {*self.facts, *(name for name in self.arrays if name not in self.arrays.paths)})
