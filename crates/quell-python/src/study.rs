@@ -11,7 +11,8 @@ use quell::run::bifurcation::SweepRequest;
 use quell::run::moment::at_time;
 use quell::run::response::ResponseTexts;
 use quell::run::varied::Range;
-use quell::study::Files;
+use quell::study::vocabulary::DocumentKind;
+use quell::study::{Files, Kind, key_at};
 use quell::{Change, Complaints, Failure, Study};
 
 use crate::answer::NativeAnswer;
@@ -179,6 +180,17 @@ impl NativeStudy {
     #[getter]
     fn kind(&self) -> &'static str {
         self.inner.kind().name()
+    }
+
+    /// Unit of the number at a path, in words; of a path that names no key none.
+    fn unit(&self, path: &str) -> Option<&'static str> {
+        let kind = match self.inner.kind() {
+            Kind::Belt(_) => DocumentKind::Belt,
+            Kind::Disc(_) => DocumentKind::Disc,
+            Kind::System(_) => DocumentKind::System,
+        };
+        let address = key_at(path, kind).ok()?;
+        Some(address.key.unit_in_words(kind, self.inner.file_units()))
     }
 
     /// The title, if any.

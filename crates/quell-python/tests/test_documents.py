@@ -47,13 +47,14 @@ def test_every_public_name_says_what_it_is() -> None:
 
 def test_every_fact_of_a_result_says_what_it_is() -> None:
     folder = Path(quell.results.__file__ or "").parent
-    files = [folder.parent / "_result.py", *(path for path in folder.glob("*.py") if path.name != "_columns.py")]
+    files = [folder.parent / "_result.py", *folder.glob("*.py")]
     trees = [ast.parse(path.read_text(encoding="utf-8")) for path in files]
     classes = [node for tree in trees for node in tree.body if isinstance(node, ast.ClassDef)]
     facts = 0
     for it in classes:
         for node, behind in zip(it.body, [*it.body[1:], None], strict=True):
-            if isinstance(node, ast.AnnAssign):
+            # The status of a quantity of a map is documented once for all.
+            if isinstance(node, ast.AnnAssign) and not ast.unparse(node.target).endswith("_status"):
                 facts += 1
                 documented = isinstance(behind, ast.Expr) and isinstance(behind.value, ast.Constant)
                 assert documented, f"{it.name}.{ast.unparse(node.target)}"

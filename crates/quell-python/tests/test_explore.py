@@ -81,6 +81,8 @@ def test_units_and_scales_are_those_of_the_registry() -> None:
     scaled = {it.path: it for it in _numbers.knobs(of("stribeck-belt.toml"))}
     assert scaled["belt.normal_load"].unit == "length (force/k)" and scaled["friction.static_coefficient"].unit == ""
     load = {it.path: it for it in _numbers.knobs(of("drill-string.toml"))}["contact[0].normal_load"]
+    own = {one.path: one for one in _numbers.knobs(of("own-friction-law.toml"))}["friction.constants.mu_s"]
+    assert (own.label, own.unit) == ("mu s", ""), "a name that a study gives has no unit"
     assert load.unit == "kN" and load.given(50.0).__class__ is str and "kN" in str(load.given(50.0))
 
 

@@ -263,7 +263,7 @@ def test_lyapunov_exponents_are_those_of_the_equations(hoffmann: quell.System) -
     assert sum(exponents) == pytest.approx(-0.04, abs=1e-9)
     assert found.lyapunov["of_multiplier"] == pytest.approx(-0.02, rel=1e-9) and found.lyapunov["agrees_with_multipliers"]
     assert (found.lyapunov["verdict"], found.lyapunov["kaplan_yorke_dimension"]) == ("regular", 0.0)
-    assert found.lyapunov_exponents.tolist() == exponents and found.dataset["lyapunov_errors"].shape == (2,)
+    assert found["lyapunov_exponents"].values.tolist() == found.lyapunov.exponents == exponents and found.dataset["lyapunov_errors"].shape == (2,)
     sliding = hoffmann.set({FRICTION: 0.3}).attractor(lyapunov=True, settle=20, record=200).lyapunov
     assert sliding is not None and sum(sliding["exponents"]) == pytest.approx(-0.1, abs=1e-9)
     # Exponents of steady sliding are eigenvalues: there is no record, and the reason is given.

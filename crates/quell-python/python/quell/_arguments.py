@@ -15,9 +15,10 @@ from ._errors import Complaint, StudyError, complaint
 from ._names import suggestion
 from ._values import plain
 
-__all__ = ["Arguments", "changes_of", "keywords"]
+__all__ = ["Arguments", "changes_of", "flags", "keywords"]
 
 F = TypeVar("F", bound=Callable[..., Any])
+T = TypeVar("T")
 
 
 def keywords(function: F) -> F:
@@ -42,6 +43,19 @@ class Arguments:
 
     def __init__(self) -> None:
         self.wrong: list[Complaint] = []
+
+    def optional(self, check: Callable[..., T], name: str, given: object, *how: Any) -> T | None:
+        """What ``check`` makes of an argument, or ``None`` if it is left out."""
+        return None if given is None else check(name, given, *how)
+
+    def conflict(self, wrong: bool, allowed: str, **given: object) -> None:
+        """Complains about arguments that contradict others, if so."""
+        if wrong:
+            self.wrong += [complaint(name, value, allowed, "conflict") for name, value in given.items()]
+
+    def left_out(self, allowed: str, **given: object) -> None:
+        """Complains about every argument that is given."""
+        self.conflict(True, allowed, **{name: value for name, value in given.items() if value is not None})
 
     def number(self, name: str, given: object, allowed: str = "a finite number") -> float:
         """A finite number."""
@@ -126,6 +140,21 @@ class Arguments:
             return self.named(name, given)
         return self.quantities(name, given, "two finite numbers (x, x′), or a dict of names and numbers")
 
+    def begin(self, name: str, given: Any, kind: str) -> Any:
+        """Where a run of a study of a kind begins: an exact state, the state of a belt, or numbers by name."""
+        if not isinstance(given, Mapping):
+            return (self.quantities(name, given, "two finite numbers (x, x′), or a dict of names and numbers"), None)
+        if "sticking" in given or "contacts" in given:
+            # The end of a run, whose facts are numbers in the units of the study.
+            state = given.get("state", [given.get("displacement"), given.get("velocity")])
+            numbers = self.numbers(name, state, "final of an earlier run")
+            return (self.number(name, given.get("time"), "final of an earlier run"), numbers.tolist())
+        if kind == "belt" and set(given) & {"displacement", "velocity"} and set(given) <= {"displacement", "velocity", "time"}:
+            pair = (given.get("displacement", 0.0), given.get("velocity", 0.0))
+            time = self.quantity(name, given["time"]) if "time" in given else None
+            return (self.quantities(name, pair, "displacement, velocity and time: finite numbers"), time)
+        return self.named(name, given)
+
     def path(self, name: str, given: object) -> str:
         """A path."""
         try:
@@ -157,6 +186,11 @@ class Arguments:
         """Raises if there are complaints."""
         if self.wrong:
             raise StudyError(self.wrong)
+
+
+def flags(**given: object) -> list[str]:
+    """The names of the flags that are set."""
+    return [name for name, wanted in given.items() if wanted]
 
 
 def _number(given: object) -> float:

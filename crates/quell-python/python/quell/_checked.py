@@ -13,7 +13,7 @@ from ._errors import StudyError, StudyFileNotFoundError, complaint
 from ._frozen import Frozen
 from ._names import suggestion
 from ._quell import NativeStudy
-from ._tables import Table
+from ._tables import Number, Table
 
 if TYPE_CHECKING:
     from ._study import Study
@@ -120,6 +120,25 @@ class CheckedStudy(Frozen):
         study: Self = object.__new__(type(self))
         study._keep(_earlier=self._native)
         study.__init__(**{**self._arguments(), **changes})  # type: ignore[misc]
+        return study
+
+    @keywords
+    def at_time(self: Self, time: Number) -> Self:
+        """The steady study with the velocities, loads and amplitudes of a time, for questions about a steady drive.
+
+        Parameters
+        ----------
+        time :
+            The moment; a text such as ``"2s"`` in a study with units.
+        """
+        arguments = Arguments()
+        moment = arguments.quantity("time", time, 'a finite number, or a time with its unit such as "2s"')
+        arguments.done()
+        document = self._native.document_at(moment)
+        document.pop("schema", None)
+        study: Self = object.__new__(type(self))
+        study._keep(_earlier=self._native)
+        study._build(**document)
         return study
 
     def _arguments(self) -> dict[str, Any]:

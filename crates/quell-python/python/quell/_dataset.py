@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ._frozen import Frozen, frozen, read_only
-from ._names import attributes, singular, suggestion
+from ._frozen import SCALARS, Frozen, as_array, frozen, read_only
+from ._names import attribute, attributes, key_of, singular, suggestion
 from ._quell import __version__, readable_unit
 
 if TYPE_CHECKING:
@@ -77,6 +77,8 @@ class Arrays(Frozen, Mapping[str, Variable]):
     """Names of the coordinates."""
     attrs: Mapping[str, Any]
     """Provenance."""
+    paths: Mapping[str, str]
+    """Of each variable that is a fact, or a part of one, the attribute of the result: ``best_amplitude`` is ``best.amplitude``."""
     _variables: dict[str, Variable]
     _renamed: dict[str, str]
 
@@ -86,8 +88,11 @@ class Arrays(Frozen, Mapping[str, Variable]):
         coords: set[str],
         attrs: dict[str, Any],
         renamed: dict[str, str] | None = None,
+        paths: dict[str, str] | None = None,
     ) -> None:
-        self._keep(_variables=variables, coords=frozenset(coords), attrs=frozen(attrs), _renamed=renamed or {})
+        self._keep(
+            _variables=variables, coords=frozenset(coords), attrs=frozen(attrs), _renamed=renamed or {}, paths=frozen(paths or {})
+        )
 
     def _other(self, name: str) -> str:
         return "a result belongs to its study, and study.replace(…) returns another study"
@@ -145,6 +150,7 @@ class Collection:
         self.variables: dict[str, Variable] = {}
         self.coords: set[str] = set()
         self.renamed: dict[str, str] = {}
+        self.paths: dict[str, str] = {}
 
     def free(self, label: str, dims: tuple[str, ...] = ()) -> str:
         """A name for a variable that is not one of its dimensions nor taken: ``NAME``, or else ``NAME_value``."""
@@ -159,7 +165,7 @@ class Collection:
     def done(self, attrs: dict[str, Any]) -> Arrays:
         """The variables with their attributes."""
         renamed = {former: now for former, now in self.renamed.items() if former not in self.variables}
-        return Arrays(self.variables, self.coords, attrs, renamed)
+        return Arrays(self.variables, self.coords, attrs, renamed, self.paths)
 
 
 def arrays(verb: str, facts: Mapping[str, Any], datasets: list[tuple[str, Any]]) -> Arrays:
@@ -238,10 +244,10 @@ class Facts:
         if values and all(isinstance(it, Mapping) for it in values):
             for inner in dict.fromkeys(key for it in values for key in it):
                 column = [it.get(inner) for it in values]
-                if all(isinstance(it, (int, float, bool, str, type(None))) for it in column):
+                if all(isinstance(it, SCALARS) for it in column):
                     key = key_of(inner)
                     self.put((f"{dim}_{key}", f"{old}_{key}"), f"{name}/{inner}", (dim,), as_array(column))
-        elif values and all(isinstance(it, (int, float, bool, str, type(None))) for it in values):
+        elif values and all(isinstance(it, SCALARS) for it in values):
             self.put((label, former), name, (dim,), as_array(values), (old,))
         elif values and all(isinstance(it, list) for it in values):
             table = np.asarray(values, dtype=np.float64)
@@ -271,21 +277,13 @@ class Facts:
                 attrs["scaling"] = scaling
         if label in self.why:
             attrs["why"] = self.why[label]
-        former = self.found.free(former, former_dims)
-        self.found.put(self.found.free(label, dims), former, Variable(dims, values, attrs))
+        free = self.found.free(label, dims)
+        self.found.put(free, self.found.free(former, former_dims), Variable(dims, values, attrs))
+        first, *keys = name.split("/")
+        self.found.paths[free] = attribute(first) + "".join(map(access, keys))
 
 
-def key_of(path: str) -> str:
-    """A key, which can be the path of a number of the study, as a part of a name."""
-    return path.replace(".", "_").replace("[", "_").replace("]", "")
-
-
-def as_array(values: list[Any]) -> npt.NDArray[Any]:
-    """A list of one type as an array; unknown numbers are NaN, unknown strings are empty."""
-    if any(isinstance(it, str) for it in values):
-        return np.array(["" if it is None else str(it) for it in values])
-    if all(isinstance(it, bool) for it in values):
-        return np.array(values, dtype=bool)
-    if all(isinstance(it, int) for it in values):
-        return np.array(values, dtype=np.int64)
-    return np.array([np.nan if it is None else it for it in values], dtype=np.float64)
+def access(key: str) -> str:
+    """How an entry of a dict is read: as an attribute, where its name can be one."""
+    name = attribute(key)
+    return f".{name}" if name.isidentifier() and not hasattr(dict, name) else f"[{key!r}]"

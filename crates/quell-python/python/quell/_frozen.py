@@ -6,11 +6,13 @@ and ignored by every answer.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
+
+from ._names import attribute, suggestion
 
 if TYPE_CHECKING:
     from typing_extensions import dataclass_transform
@@ -21,9 +23,11 @@ else:
         return lambda cls: cls
 
 
-__all__ = ["Frozen", "FrozenDict", "FrozenList", "frozen", "read_only", "thawed"]
+__all__ = ["Frozen", "FrozenDict", "FrozenList", "Records", "SCALARS", "as_array", "frozen", "read_only", "thawed"]
 
 Self = TypeVar("Self", bound="Frozen")
+T = TypeVar("T")
+V = TypeVar("V")
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, eq_default=False)
@@ -54,17 +58,44 @@ class Frozen:
         return self
 
 
+UNCHANGED = "a value of a study or of a result cannot be changed; replace() of a study or of its table returns a changed one"
+
+
 def reject(self: object, *_arguments: object, **_named: object) -> NoReturn:
     """Refuses a change of a list or a dict."""
-    raise TypeError("a value of a study or of a result cannot be changed; replace() of a study or of its table returns a changed one")
+    raise TypeError(UNCHANGED)
 
 
-class FrozenDict(dict[str, Any]):
-    """A dict of a study or of a result. Its copies are plain dicts."""
+def reject_attribute(self: object, name: str, value: object = None) -> NoReturn:
+    """Refuses a change of an attribute of a list or a dict."""
+    raise AttributeError(f"{name} cannot be set: {UNCHANGED}")
+
+
+class FrozenDict(dict[str, V]):
+    """A dict of a study or of a result, whose entries are also attributes: ``best["amplitude"]`` is ``best.amplitude``.
+
+    A name that is a keyword has an underscore as an attribute (``from_``), and paths have underscores for dots
+    (``critical.dither_amplitude``). An entry that has the name of a method of dicts, such as ``values``, is not an attribute. Copies are
+    plain dicts.
+    """
 
     __slots__ = ()
     __setitem__ = __delitem__ = __ior__ = reject
     clear = pop = popitem = setdefault = update = reject
+
+    def __getattr__(self, name: str) -> V:
+        if name in self:
+            return self[name]
+        found = None if name.startswith("_") else next((key for key in self if attribute(key) == name), None)
+        if found is None:
+            raise AttributeError(f"no {name}{suggestion(name, self)}; there {'is' if len(self) == 1 else 'are'} {', '.join(self)}")
+        return self[found]
+
+    if not TYPE_CHECKING:
+        __setattr__ = __delattr__ = reject_attribute
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *(name for name in map(attribute, self) if name.isidentifier())})
 
     def __reduce__(self) -> tuple[Any, ...]:
         return FrozenDict, (dict(self),)
@@ -74,7 +105,7 @@ class FrozenDict(dict[str, Any]):
         return copied
 
 
-class FrozenList(list[Any]):
+class FrozenList(list[T]):
     """A list of a study or of a result. Its copies are plain lists."""
 
     __slots__ = ()
@@ -82,11 +113,95 @@ class FrozenList(list[Any]):
     append = clear = extend = insert = pop = remove = reverse = sort = reject
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return FrozenList, (list(self),)
+        return type(self), (list(self),)
 
     def __deepcopy__(self, memo: object) -> list[Any]:
         copied: list[Any] = thawed(self)
         return copied
+
+
+class Records(FrozenList[FrozenDict[Any]]):
+    """A list of dicts, whose columns are attributes and entries: ``local[0].value`` is a number, ``local.value`` and ``local["value"]`` are
+    all of them.
+
+    A column of numbers, words or truth values is an array with NaN and empty words for what is unknown or absent; one of dicts is a list
+    with columns of its own (``sufficient.best.amplitude``). Every column of an empty list is empty.
+    """
+
+    __slots__ = ()
+
+    def _columns(self) -> list[str]:
+        """The names of the columns."""
+        return list(dict.fromkeys(key for one in self for key in one))
+
+    def _column(self, name: str) -> Any:
+        """A column, or ``None`` if no entry has this name."""
+        if not self:
+            # What has attributes of arrays, such as a shape, is taken for an array.
+            return None if hasattr(np.ndarray, name) else read_only(np.array([]))
+        key = next((key for key in self._columns() if name in (key, attribute(key))), None)
+        if key is None:
+            return None
+        values = [one.get(key) for one in self]
+        if all(isinstance(it, SCALARS) for it in values):
+            return read_only(as_array(values))
+        return records(values)
+
+    if not TYPE_CHECKING:
+
+        def __getitem__(self, place: Any) -> Any:
+            if not isinstance(place, str):
+                return super().__getitem__(place)
+            found = self._column(place)
+            if found is None:
+                raise KeyError(f"no column {place}{suggestion(place, self._columns())}")
+            return found
+
+    else:
+
+        @overload
+        def __getitem__(self, place: SupportsIndex) -> FrozenDict[Any]: ...
+
+        @overload
+        def __getitem__(self, place: slice) -> list[FrozenDict[Any]]: ...
+
+        @overload
+        def __getitem__(self, place: str) -> Any: ...
+
+        def __getitem__(self, place: Any) -> Any: ...
+
+    def __getattr__(self, name: str) -> Any:
+        found = None if name.startswith("_") else self._column(name)
+        if found is None:
+            names = self._columns()
+            raise AttributeError(f"no column {name}{suggestion(name, names)}; the columns are {', '.join(names)}")
+        return found
+
+    if not TYPE_CHECKING:
+        __setattr__ = __delattr__ = reject_attribute
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *(name for name in map(attribute, self._columns()) if name.isidentifier())})
+
+
+SCALARS = (int, float, bool, str, type(None))
+"""Types of entries that are columns of an array."""
+
+
+def as_array(values: Sequence[Any]) -> npt.NDArray[Any]:
+    """A list of one type as an array; unknown numbers are NaN, unknown strings are empty."""
+    if any(isinstance(it, str) for it in values):
+        return np.array(["" if it is None else str(it) for it in values])
+    if all(isinstance(it, bool) for it in values):
+        return np.array(values, dtype=bool)
+    if all(isinstance(it, int) for it in values):
+        return np.array(values, dtype=np.int64)
+    return np.array([np.nan if it is None else it for it in values], dtype=np.float64)
+
+
+def records(values: list[Any]) -> FrozenList[Any]:
+    """A list of frozen values; with columns if all are dicts."""
+    return (Records if values and all(type(it) is FrozenDict for it in values) else FrozenList)(values)
 
 
 def frozen(value: Any) -> Any:
@@ -95,7 +210,7 @@ def frozen(value: Any) -> Any:
     if kind is dict:
         return FrozenDict({name: frozen(inner) for name, inner in value.items()})
     if kind is list:
-        return FrozenList([frozen(inner) for inner in value])
+        return records([frozen(inner) for inner in value])
     if kind is tuple:
         return tuple(frozen(inner) for inner in value)
     return read_only(value.copy()) if kind is np.ndarray else value

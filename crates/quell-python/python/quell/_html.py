@@ -26,7 +26,7 @@ def number(value: object) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return f"{value:.6g}".replace("-", "−")
+        return f"{value:.6g}"
     return str(value)
 
 
@@ -101,7 +101,7 @@ def short(value: object) -> str:
 
 def of_complex(re: float, im: float) -> str:
     """A complex number and its modulus."""
-    sign = "−" if im < 0 else "+"
+    sign = "-" if im < 0 else "+"
     whole = number(float(re)) if im == 0.0 else f"{number(float(re))} {sign} {number(abs(float(im)))}i"
     return f"{whole} (modulus {number(float(abs(complex(re, im))))})"
 
@@ -133,7 +133,8 @@ def plain(result: Result) -> str:
         lines += aligned(columns, shown) if shown else []
     lines += [f"  arrays over {over}: {', '.join(names)}" for over, names in sampled(result)]
     lines += [f"  warning: {warning}" for warning in result.warnings]
-    return "\n".join(lines)
+    # The sentences have the minus sign of a text; numbers that are copied must have that of a program.
+    return "\n".join(lines).replace("−", "-")
 
 
 def sampled(result: Result) -> list[tuple[str, list[str]]]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import keyword
 from collections import Counter
 from collections.abc import Iterable
 
-__all__ = ["attributes", "nearest", "singular", "suggestion"]
+__all__ = ["attribute", "attributes", "key_of", "nearest", "singular", "suggestion"]
 
 UNCHANGED = ("ss", "us", "is", "series", "species")
 """Endings of words that are singular, or equal in singular and plural."""
@@ -36,13 +37,20 @@ def attributes(names: Iterable[str]) -> dict[str, str]:
     """Names that are also attributes: ``velocity.x`` is ``velocity_x``, and ``dither[1].phase`` is ``dither_1_phase``, as the
     axes in stores of maps. Names that would become equal stay.
     """
-    wanted = {name: _attribute(name) for name in names}
+    wanted = {name: key_of(name) for name in names}
     of_several = Counter(wanted.values())
     return {name: name if of_several[now] > 1 else now for name, now in wanted.items()}
 
 
-def _attribute(name: str) -> str:
-    return name.replace(".", "_").replace("[", "_").replace("]", "")
+def attribute(name: str) -> str:
+    """A name, which can be a path, as one of Python: ``dither.amplitude`` is ``dither_amplitude``, and ``from`` is ``from_``."""
+    plain = key_of(name)
+    return f"{plain}_" if keyword.iskeyword(plain) else plain
+
+
+def key_of(path: str) -> str:
+    """A name, which can be a path, without dots and brackets."""
+    return path.replace(".", "_").replace("[", "_").replace("]", "")
 
 
 def nearest(name: str, known: Iterable[str]) -> str | None:

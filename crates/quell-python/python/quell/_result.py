@@ -14,8 +14,8 @@ from . import _dataset
 from ._arguments import Arguments
 from ._dataset import Arrays
 from ._errors import StudyError, complaint
-from ._frozen import Frozen, frozen, thawed
-from ._names import suggestion
+from ._frozen import Frozen, Records, frozen, thawed
+from ._names import attribute, suggestion
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -30,7 +30,7 @@ __all__ = ["Result", "numbers_of"]
 T = TypeVar("T")
 Self = TypeVar("Self", bound="Result")
 
-REPORTED_ELSEWHERE = ("ok", "answer", "units", "why", "warnings")
+REPORTED_ELSEWHERE = ("ok", "answer", "notes", "units", "why", "warnings")
 """Facts that every result has as properties."""
 
 
@@ -51,8 +51,10 @@ class Result(Frozen):
     Facts and arrays are attributes and entries: ``response.residual_vibration``, ``response["residual_vibration"]``,
     ``"residual_vibration" in response``, ``list(response)``. An attribute is a method or property of the class if it has one of that
     name, else the fact, else the array, as NumPy values in the units of the study; an array never replaces a fact that the class
-    documents. An entry is the variable of :attr:`dataset`, with its unit, else the fact. A result cannot be changed, and has no truth
-    value: whether it is good is one of its facts.
+    documents. The parts of a fact are its attributes: ``actuator.best.amplitude``, and of a list of objects ``local[0].value`` and the
+    column ``local.value``. An entry is the variable of :attr:`dataset`, with its unit, else the fact; the parts of facts are entries
+    with joined names, ``actuator["best_amplitude"]``. A result cannot be changed, and has no truth value: whether it is good is one of
+    its facts.
     """
 
     verb: ClassVar[str] = ""
@@ -72,7 +74,7 @@ class Result(Frozen):
     """What the result is, as in the JSON of the command line: ``window`` of ``response(window=…)``."""
 
     sentence: str
-    """The result in one sentence, if the verb has one."""
+    """The result in one or two sentences, if the verb has them."""
 
     @classmethod
     def _of(cls: type[Self], study: Study | None, native: NativeAnswer | None) -> Self:
@@ -88,7 +90,10 @@ class Result(Frozen):
     def facts(self) -> Mapping[str, Any]:
         """The facts, as the command line prints them with ``--json``; for a map without its arrays. :meth:`to_dict` copies them."""
         if self._facts is None:
-            self._keep(_facts=frozen(self._alive().facts()))
+            given = self._alive().facts()
+            # An empty list of objects has columns, too; whether it is one of objects, only the class says.
+            empty = {name: Records() for name, value in given.items() if value == [] and "Records" in self._hint(name)}
+            self._keep(_facts=frozen({**given, **empty}))
         known: Mapping[str, Any] = self._facts or {}
         return known
 
@@ -108,6 +113,12 @@ class Result(Frozen):
     def warnings(self) -> list[str]:
         """Warnings about the numbers."""
         found: list[str] = self.facts.get("warnings", [])
+        return found
+
+    @property
+    def notes(self) -> list[str]:
+        """What else a reader should know, one sentence each, after the sentence."""
+        found: list[str] = self.facts.get("notes", [])
         return found
 
     @property
@@ -353,26 +364,33 @@ class Result(Frozen):
             name = name[:-1]
         if name in self.facts:
             return self.facts[name]
-        if name in self.arrays and not self._declares(name):
-            one = self.arrays[name]
-            return one.values if one.dims else one.values.item()
+        arrays = self.arrays
+        if name in arrays.paths:
+            raise AttributeError(f"{type(self).__name__} has no {name}, but {arrays.paths[name]}, and with its unit result[{name!r}]")
+        if name in arrays and not self._declares(name):
+            return arrays[name].values
         there = ", ".join(key for key in self.facts if key not in REPORTED_ELSEWHERE)
-        only = [name for name in self.arrays if name not in self.facts and self.arrays[name].dims]
+        only = [name for name in arrays if name not in arrays.paths]
         also = f", its arrays {', '.join(only)}" if only else ""
-        if name in self.arrays:
+        if name in arrays:
             raise AttributeError(f"{type(self).__name__} has no fact {name}, but an array: result[{name!r}]")
         advice = suggestion(name, [*self.facts, *only, *super().__dir__()])
         raise AttributeError(f"{type(self).__name__} has no {name}{advice}; its facts are {there}{also}")
 
     def _declares(self, name: str) -> bool:
         """Whether the class documents a fact of this name, which an array of the same name does not replace."""
+        hint = self._hint(name)
+        return bool(hint) and "NDArray" not in hint
+
+    @classmethod
+    def _hint(cls, name: str) -> str:
+        """The type of a fact or an array as the class declares it, or nothing."""
         from inspect import get_annotations
 
-        classes = (cls for cls in type(self).__mro__ if not cls.__name__.endswith("Columns"))
-        return any(name in get_annotations(cls) for cls in classes)
+        return next((str(hints[name]) for hints in map(get_annotations, cls.__mro__) if name in hints), "")
 
     def __dir__(self) -> list[str]:
-        names = (f"{name}_" if keyword.iskeyword(name) else name for name in {*self, *self.facts})
+        names = map(attribute, {*self.facts, *(name for name in self.arrays if name not in self.arrays.paths)})
         return sorted({*super().__dir__(), *(name for name in names if name.isidentifier() and name != "ok")})
 
     def _ipython_key_completions_(self) -> list[str]:

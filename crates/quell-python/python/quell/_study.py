@@ -13,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import results
-from ._arguments import Arguments, keywords
+from ._arguments import Arguments, flags, keywords
 from ._axes import Axes
 from ._checked import CheckedStudy
-from ._errors import StudyError, complaint
+from ._errors import complaint
 from ._laws import StudyFriction
 from ._record import names_of, record_of
 from ._tables import Number
@@ -30,6 +30,7 @@ __all__ = ["Study"]
 State = tuple[Number, Number]
 """Two numbers: displacement and velocity, or the ends of a range."""
 
+A_TIME = 'a finite number, or a time with its unit such as "0.5s"'
 A_NUMBER_OF_A_SYSTEM = "path of a number, such as contact.pad.friction.coefficient"
 
 
@@ -79,8 +80,8 @@ class Study(CheckedStudy):
         True
         """
         arguments = Arguments()
-        place = None if path is None else arguments.path("path", path)
-        wide = None if width is None else arguments.text("width", width, "a length with its unit, such as 85mm")
+        place = arguments.optional(arguments.path, "path", path)
+        wide = arguments.optional(arguments.text, "width", width, "a length with its unit, such as 85mm")
         arguments.done()
         return self._native.sketch(place, wide)
 
@@ -116,7 +117,7 @@ class Study(CheckedStudy):
         True
         """
         arguments = Arguments()
-        place = None if path is None else arguments.path("path", path)
+        place = arguments.optional(arguments.path, "path", path)
         names = [without] if isinstance(without, str) else list(without)
         verbs = [arguments.text("without", name, "names of verbs") for name in names]
         arguments.done()
@@ -178,18 +179,16 @@ class Study(CheckedStudy):
             With a parameter :class:`quell.results.TrackedStability`, with ``exact`` :class:`quell.results.ExactStability`.
         """
         arguments = Arguments()
-        tracked = None if parameter is None else arguments.text("parameter", parameter, A_NUMBER_OF_A_SYSTEM)
-        begin = None if from_ is None else arguments.quantity("from_", from_)
-        end = None if to is None else arguments.quantity("to", to)
-        second = None if along is None else arguments.text("along", along, A_NUMBER_OF_A_SYSTEM)
-        window = None if between is None else arguments.quantities("between", between, "two numbers, the second above the first")
-        if len({it is None for it in (parameter, from_, to)}) > 1:
-            arguments.wrong.append(complaint("parameter", parameter, "given together with from_ and to", "conflict"))
-        if (along is None) != (between is None) or (along is not None and parameter is None):
-            allowed = "given together with between, parameter, from_ and to"
-            arguments.wrong.append(complaint("along", along, allowed, "conflict"))
-        if exact and parameter is not None:
-            arguments.wrong.append(complaint("exact", exact, "given without parameter", "conflict"))
+        tracked = arguments.optional(arguments.text, "parameter", parameter, A_NUMBER_OF_A_SYSTEM)
+        begin = arguments.optional(arguments.quantity, "from_", from_)
+        end = arguments.optional(arguments.quantity, "to", to)
+        second = arguments.optional(arguments.text, "along", along, A_NUMBER_OF_A_SYSTEM)
+        window = arguments.optional(arguments.quantities, "between", between, "two numbers, the second above the first")
+        in_part = len({it is None for it in (parameter, from_, to)}) > 1
+        arguments.conflict(in_part, "given together with from_ and to", parameter=parameter)
+        in_part = (along is None) != (between is None) or (along is not None and parameter is None)
+        arguments.conflict(in_part, "given together with between, parameter, from_ and to", along=along)
+        arguments.conflict(exact and parameter is not None, "given without parameter", exact=exact)
         arguments.done()
         if tracked is not None and begin is not None and end is not None:
             pair = None if second is None or window is None else (second, window)
@@ -241,43 +240,21 @@ class Study(CheckedStudy):
             largest sample is 3 dB below full scale].
         """
         arguments = Arguments()
-        allowed = 'a finite number, or a time with its unit such as "0.5s"'
         given = plain(t_eval)
         of_texts = isinstance(given, list) and bool(given) and all(isinstance(it, str) for it in given)
         written = [arguments.text("t_eval", it, "times") for it in given] if of_texts else []
         times = None if given is None or of_texts else arguments.numbers("t_eval", given, "times: finite numbers")
-        if t_eval is not None and not samples:
-            arguments.wrong.append(complaint("t_eval", None, "given with samples=True", "conflict"))
+        arguments.conflict(t_eval is not None and not samples, "given with samples=True", t_eval=None)
         if until is None and t_eval is not None:
             until = written[-1] if written else float(times[-1]) if times is not None and times.size else 0.0
         moments: list[float] | list[str] | None = written or (None if times is None else times.tolist())
-        end = None if until is None else arguments.quantity("until", until, allowed)
-        begin = None if start is None else begin_of(arguments, start, self._native.kind)
-        factor = None if transpose is None else arguments.quantity("transpose", transpose, "a factor above 0, such as 0.5")
-        level = None if gain is None else arguments.quantity("gain", gain)
+        end = arguments.optional(arguments.quantity, "until", until, A_TIME)
+        begin = arguments.optional(arguments.begin, "start", start, self._native.kind)
+        factor = arguments.optional(arguments.quantity, "transpose", transpose, "a factor above 0, such as 0.5")
+        level = arguments.optional(arguments.quantity, "gain", gain)
         arguments.done()
         texts = (factor, level) if sound or factor is not None or level is not None else None
         return results.Simulation._of(self, self._native.simulate(end, (bool(events), bool(samples)), begin, moments, texts))
-
-    @keywords
-    @keywords
-    def at_time(self, time: Number) -> Study:
-        """The steady study with the velocities, loads and amplitudes of a time, for questions about a steady drive.
-
-        Parameters
-        ----------
-        time :
-            The moment; a text such as ``"2s"`` in a study with units.
-        """
-        arguments = Arguments()
-        moment = arguments.quantity("time", time, 'a finite number, or a time with its unit such as "2s"')
-        arguments.done()
-        document = self._native.document_at(moment)
-        document.pop("schema", None)
-        study = object.__new__(type(self))
-        study._keep(_earlier=self._native)
-        study._build(**document)
-        return study
 
     @overload
     def response(self, *, settle: Number | None = None, record: Number | None = None, window: None = None) -> results.Response: ...
@@ -317,15 +294,12 @@ class Study(CheckedStudy):
             [default: 16].
         """
         arguments = Arguments()
-        allowed = 'a finite number, or a time with its unit such as "0.5s"'
         if window is not None:
-            for name, given in (("settle", settle), ("record", record), ("seeds", seeds)):
-                if given is not None:
-                    arguments.wrong.append(complaint(name, given, "left out: window gives both times", "conflict"))
-        count = None if seeds is None else arguments.whole("seeds", seeds, 1, 10_000)
-        before = None if settle is None else arguments.quantity("settle", settle, allowed)
-        length = None if record is None else arguments.quantity("record", record, allowed)
-        ends = None if window is None else arguments.quantities("window", window, "two finite times, the beginning and the end")
+            arguments.left_out("left out: window gives both times", settle=settle, record=record, seeds=seeds)
+        count = arguments.optional(arguments.whole, "seeds", seeds, 1, 10_000)
+        before = arguments.optional(arguments.quantity, "settle", settle, A_TIME)
+        length = arguments.optional(arguments.quantity, "record", record, A_TIME)
+        ends = arguments.optional(arguments.quantities, "window", window, "two finite times, the beginning and the end")
         arguments.done()
         answer = self._native.response(before, length, ends, count)
         if ends is not None:
@@ -361,15 +335,10 @@ class Study(CheckedStudy):
         arguments = Arguments()
         state, begin = arguments.state("near", near), arguments.state("start", start)
         count = arguments.whole("periods", periods, 1, 1000)
-        flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
-        asked = [name for name, wanted in flags.items() if wanted]
-        if len(asked) + (start is not None) > 1:
-            arguments.wrong.append(complaint("start", start, "one start alone", "conflict"))
+        asked = flags(from_rest=from_rest, from_sliding=from_sliding, from_squeal=from_squeal)
+        arguments.conflict(len(asked) + (start is not None) > 1, "one start alone", start=start)
         if asked or start is not None:
-            for name, given, there in (("near", near, near is not None), ("periods", periods, count != 1)):
-                if there:
-                    allowed = "given without a start: a run determines its response"
-                    arguments.wrong.append(complaint(name, given, allowed, "conflict"))
+            arguments.left_out("given without a start: a run determines its response", near=near, periods=None if count == 1 else periods)
         arguments.done()
         return results.Orbit._of(self, self._native.orbit(state, count, asked[0] if asked else None, begin))
 
@@ -396,16 +365,13 @@ class Study(CheckedStudy):
             [default: 50 and 1000 periods of the slowest oscillation].
         """
         arguments = Arguments()
-        allowed = 'a finite number, or a time with its unit such as "0.5s"'
-        before = None if settle is None else arguments.quantity("settle", settle, allowed)
-        length = None if record is None else arguments.quantity("record", record, allowed)
-        for name, given in (("settle", settle), ("record", record)):
-            if given is not None and not lyapunov:
-                arguments.wrong.append(complaint(name, given, "given with lyapunov=True", "conflict"))
-        times = (before, length) if lyapunov else None
+        before = arguments.optional(arguments.quantity, "settle", settle, A_TIME)
+        length = arguments.optional(arguments.quantity, "record", record, A_TIME)
+        if not lyapunov:
+            arguments.left_out("given with lyapunov=True", settle=settle, record=record)
         begin = arguments.state("start", start)
         arguments.done()
-        return results.Attractor._of(self, self._native.attractor(begin, times))
+        return results.Attractor._of(self, self._native.attractor(begin, (before, length) if lyapunov else None))
 
     @overload
     def thresholds(
@@ -477,24 +443,18 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
-        ends = (
-            None if from_ is None else arguments.quantity("from_", from_),
-            None if to is None else arguments.quantity("to", to),
-        )
+        ends = (arguments.optional(arguments.quantity, "from_", from_), arguments.optional(arguments.quantity, "to", to))
         count = arguments.whole("periods", periods, 1, 1000)
         begin, motion = arguments.state("start", start), arguments.state("near", near)
         time = arguments.quantity("ramp", ramp, "a time ≥ 0")
-        second = None if along is None else arguments.text("along", along, "path of a number, such as belt.belt_velocity")
-        window = None if between is None else arguments.quantities("between", between, "two numbers, the second above the first")
-        flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
-        asked = [name for name, wanted in flags.items() if wanted]
-        if (along is None) != (between is None):
-            arguments.wrong.append(complaint("along", along, "given together with between", "conflict"))
+        second = arguments.optional(arguments.text, "along", along, "path of a number, such as belt.belt_velocity")
+        window = arguments.optional(arguments.quantities, "between", between, "two numbers, the second above the first")
+        asked = flags(from_rest=from_rest, from_sliding=from_sliding, from_squeal=from_squeal)
+        arguments.conflict((along is None) != (between is None), "given together with between", along=along)
         has_runs = bool(asked) or start is not None or time != repr(0.0)
-        if along is not None and (has_runs or near is not None):
-            arguments.wrong.append(complaint("along", along, "given without near, starts and ramp", "conflict"))
-        if near is not None and has_runs:
-            arguments.wrong.append(complaint("near", near, "given without starts and ramp", "conflict"))
+        followed_twice = along is not None and (has_runs or near is not None)
+        arguments.conflict(followed_twice, "given without near, starts and ramp", along=along)
+        arguments.conflict(near is not None and has_runs, "given without starts and ramp", near=near)
         arguments.done()
         if second is not None and window is not None:
             return results.ThresholdCurves._of(self, self._native.threshold_curves(path, ends, second, window))
@@ -574,19 +534,16 @@ class Study(CheckedStudy):
             arguments.wrong.append(complaint("quantity", quantity, "a name of quell.quantities(), or several"))
             names = []
         asked = [arguments.text("quantity", name, "a name of quell.quantities()") for name in names]
-        place = None if store is None else arguments.path("store", store)
+        place = arguments.optional(arguments.path, "store", store)
         if place is not None and not place.endswith(".zarr"):
             arguments.wrong.append(complaint("store", place, "a path that ends in .zarr"))
-        if resume and place is None:
-            arguments.wrong.append(complaint("resume", resume, "given together with store", "conflict"))
-        for name, given in (("client", client), ("shard", shard)):
-            if given is not None and place is None:
-                allowed = "given together with store: every process keeps its chunks there"
-                arguments.wrong.append(complaint(name, "…", allowed, "conflict"))
-        if shard is not None and (resume or client is not None):
-            arguments.wrong.append(complaint("shard", shard, "given without resume and client", "conflict"))
-        part = None if shard is None else arguments.text("shard", shard, "k/n, such as 3/16")
-        count = None if threads is None else arguments.whole("threads", threads, 1, 1024)
+        arguments.conflict(resume and place is None, "given together with store", resume=resume)
+        needs_store = "given together with store: every process keeps its chunks there"
+        arguments.conflict(client is not None and place is None, needs_store, client="…")
+        arguments.conflict(shard is not None and place is None, needs_store, shard="…")
+        arguments.conflict(shard is not None and (resume or client is not None), "given without resume and client", shard=shard)
+        part = arguments.optional(arguments.text, "shard", shard, "k/n, such as 3/16")
+        count = arguments.optional(arguments.whole, "threads", threads, 1, 1024)
         arguments.done()
         study = self if axes is None else self.sweeping(axes)
         if part is not None and place is not None:
@@ -649,9 +606,7 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         if ramp:
-            for name, given in (("parameter", parameter), ("from_", from_), ("to", to)):
-                if given is not None:
-                    arguments.wrong.append(complaint(name, given, "left out: the study gives the ramp", "conflict"))
+            arguments.left_out("left out: the study gives the ramp", parameter=parameter, from_=from_, to=to)
             arguments.done()
             return results.Ramp._of(self, self._native.ramp())
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
@@ -701,36 +656,32 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         two = "two numbers, the first below the second"
-        window = (
-            None if displacement is None else arguments.quantities("displacement", displacement, two),
-            None if velocity is None else arguments.quantities("velocity", velocity, two),
-        )
+        across = arguments.optional(arguments.quantities, "displacement", displacement, two)
+        window = (across, arguments.optional(arguments.quantities, "velocity", velocity, two))
         cells = arguments.pair("grid", (41, 31) if grid is None else grid, "two whole numbers, at least 2")
         sides = [
             arguments.whole("grid", int(side) if side == int(side) else side, 0, 10**7)
             for side in cells
             if np.isfinite(cells).all()
         ]
-        states = None if sample is None else arguments.whole("sample", sample, 0, 10**7)
+        states = arguments.optional(arguments.whole, "sample", sample, 0, 10**7)
         which = arguments.whole("seed", 1 if seed is None else seed, 0, 2**63 - 1)
-        if grid is not None and sample is not None:
-            arguments.wrong.append(complaint("grid", grid, "given without sample: it is in place of a grid", "conflict"))
-        if seed is not None and sample is None:
-            arguments.wrong.append(complaint("seed", seed, "given together with sample: it says which states", "conflict"))
+        both = grid is not None and sample is not None
+        arguments.conflict(both, "given without sample: it is in place of a grid", grid=grid)
+        arguments.conflict(seed is not None and sample is None, "given together with sample: it says which states", seed=seed)
         count = arguments.whole("points", 41 if points is None else points, 0, 2**31)
         along = None
         if over is not None:
             path = arguments.text("over", over, "path of a number, such as dither.amplitude")
             along = (path, (arguments.quantity("from_", from_), arguments.quantity("to", to)), count)
-        elif from_ is not None or to is not None or points is not None:
-            arguments.wrong.append(complaint("over", None, "given together with from_, to and points", "conflict"))
-        workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
-        arguments.done()
+        else:
+            in_part = from_ is not None or to is not None or points is not None
+            arguments.conflict(in_part, "given together with from_, to and points", over=None)
+        workers = arguments.optional(arguments.whole, "threads", threads, 1, 1024)
         drawn = None if states is None else (states, which)
-        text = None if plane is None else arguments.text("plane", plane, "two names, such as x,velocity.x")
-        if plane is not None and (displacement is not None or velocity is not None):
-            allowed = "given without displacement and velocity: windows are in the plane, such as x=-1:1"
-            arguments.wrong.append(complaint("plane", plane, allowed, "conflict"))
+        text = arguments.optional(arguments.text, "plane", plane, "two names, such as x,velocity.x")
+        both = plane is not None and (displacement is not None or velocity is not None)
+        arguments.conflict(both, "given without displacement and velocity: windows are in the plane, such as x=-1:1", plane=plane)
         arguments.done()
         size = None if grid is None else (sides[0], sides[1])
         native = self._native.basins((text, window), (size, drawn), along, workers, progress)
@@ -780,7 +731,7 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         two = "two frequencies, the first below the second"
-        given = None if frequency is None else arguments.quantities("frequency", frequency, two)
+        given = arguments.optional(arguments.quantities, "frequency", frequency, two)
         arguments.done()
         return results.Actuator._of(self, self._native.actuator(given))
 
@@ -816,9 +767,9 @@ class Study(CheckedStudy):
             The probability with its 95 % interval, quantiles of the growth rate and Sobol indices.
         """
         arguments = Arguments()
-        count = None if samples is None else arguments.whole("samples", samples, 1, 10**7)
+        count = arguments.optional(arguments.whole, "samples", samples, 1, 10**7)
         chosen = arguments.whole("seed", seed, 0, 2**63 - 1)
-        workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
+        workers = arguments.optional(arguments.whole, "threads", threads, 1, 1024)
         if not isinstance(start, str):
             arguments.wrong.append(complaint("start", start, "one of averaged, local, rest, squeal"))
         arguments.done()
@@ -858,8 +809,8 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         first = arguments.path("measured", measured)
-        second = None if after is None else arguments.path("after", after)
-        time = None if settle is None else arguments.quantity("settle", settle)
+        second = arguments.optional(arguments.path, "after", after)
+        time = arguments.optional(arguments.quantity, "settle", settle)
         texts = record_of(arguments, column, quantity, gain, window)
         arguments.done()
         return results.Comparison._of(self, self._native.compare((first, second), time, texts))
@@ -901,7 +852,7 @@ class Study(CheckedStudy):
         arguments = Arguments()
         place = arguments.path("data", data)
         freed, fixed = names_of(arguments, "free", free), names_of(arguments, "fix", fix)
-        time = None if settle is None else arguments.quantity("settle", settle)
+        time = arguments.optional(arguments.quantity, "settle", settle)
         texts = record_of(arguments, column, quantity, gain, window)
         arguments.done()
         return results.RecordFit._of(self, self._native.fit_record((place, freed, fixed), time, texts))
@@ -938,25 +889,9 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         two = "two finite numbers"
-        ranges = None if speeds is None else arguments.quantities("speeds", speeds, two)
-        wanted = None if clear is None else arguments.quantities("clear", clear, two)
-        within = None if frequency is None else arguments.quantities("frequency", frequency, two)
+        ranges = arguments.optional(arguments.quantities, "speeds", speeds, two)
+        wanted = arguments.optional(arguments.quantities, "clear", clear, two)
+        within = arguments.optional(arguments.quantities, "frequency", frequency, two)
         how_far = arguments.text("order", order, '"first" or "second"')
         arguments.done()
         return results.Resonances._of(self, self._native.resonances(ranges, how_far, wanted, within))
-
-
-def begin_of(arguments: Arguments, start: Any, kind: str) -> Any:
-    """Where a run begins: an exact state, the state of a belt, or numbers by name."""
-    if not isinstance(start, Mapping):
-        return (arguments.quantities("start", start, "two finite numbers (x, x′), or a dict of names and numbers"), None)
-    if "sticking" in start or "contacts" in start:
-        # The end of a run, whose facts are numbers in the units of the study.
-        state = start.get("state", [start.get("displacement"), start.get("velocity")])
-        numbers = arguments.numbers("start", state, "final of an earlier run")
-        return (arguments.number("start", start.get("time"), "final of an earlier run"), numbers.tolist())
-    if kind == "belt" and set(start) & {"displacement", "velocity"} and set(start) <= {"displacement", "velocity", "time"}:
-        pair = (start.get("displacement", 0.0), start.get("velocity", 0.0))
-        time = None if "time" not in start else arguments.quantity("start", start["time"])
-        return (arguments.quantities("start", pair, "displacement, velocity and time: finite numbers"), time)
-    return arguments.named("start", start)

@@ -93,9 +93,9 @@ class Table(Frozen):
     __hash__ = None  # type: ignore[assignment]
 
 
-def kept(given: Mapping[str, Any]) -> FrozenDict:
+def kept(given: Mapping[str, Any]) -> FrozenDict[Any]:
     """The values of the keys that are given."""
-    found: FrozenDict = frozen({name: value for name, value in given.items() if value is not None})
+    found: FrozenDict[Any] = frozen({name: value for name, value in given.items() if value is not None})
     return found
 
 

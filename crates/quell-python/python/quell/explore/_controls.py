@@ -178,7 +178,7 @@ class Controls:
         select = pn.widgets.Select(label="law", options=options, value=law, sizing_mode="stretch_width", margin=(2, 4, 8, 4))
         select.param.watch(lambda event: None if self._silent else self._choose_law(path, event.new), "value")
         self.selects[f"{path}.law"] = select
-        groups.setdefault(label_of(study, [*tokens(path), "law"], "")[1], []).append(select)
+        groups.setdefault(label_of(study, [*tokens(path), "law"])[1], []).append(select)
 
     def _choice(self, groups: dict[str, list[Any]], choice: Choice) -> None:
         select = pn.widgets.Select(

@@ -38,6 +38,9 @@ FIXED = ("law", "units", "normalisation")
 MEASURED = re.compile(r"\s*([-+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][-+]?[0-9]+)?)(\s*[^-+.\s0-9eE*/()].*?)\s*$")
 """A number followed by its unit."""
 
+KNOTS = {"time_s": "s", "velocity_m_per_s": "m/s", "load_n": "N", "speed_hz": "Hz"}
+"""Units of the lists of profiles."""
+
 Token = str | int
 
 
@@ -130,20 +133,6 @@ def definitions() -> dict[str, Any]:
     return found
 
 
-@functools.cache
-def units() -> tuple[dict[tuple[str, str, str], str], dict[str, str]]:
-    """Units of the keys by (kind of study, table, key), and units in SI by the endings of keys."""
-    exact: dict[tuple[str, str, str], str] = {}
-    endings: dict[str, str] = {}
-    for kind, table, key, unit, _ in _quell.keys():
-        exact[kind, table, key] = unit
-        for place in range(len(key)):
-            ending = key[place:]
-            if ending.startswith("_") and written(unit) == ending:
-                endings[ending] = unit
-    return exact, endings
-
-
 def written(unit: str) -> str:
     """A unit as the ending of a key: "_n_s_per_m" for N·s/m."""
     words = unit.lower().replace(" (rms)", "_rms").replace("³", "3").replace("²", "2").replace("·", "_")
@@ -152,16 +141,11 @@ def written(unit: str) -> str:
     return f"_{top}_per_{bottom}" if top and bottom else f"_{top}" if top else ""
 
 
-def unit_of(kind: str, path: list[Token]) -> str:
+def unit_of(study: Study, path: str) -> str:
     """The unit of a number; empty for a ratio."""
-    exact, endings = units()
-    key = str(next(it for it in reversed(path) if isinstance(it, str)))
-    table = ".".join(str(it) for it in path[:-1] if isinstance(it, str))
-    if (kind, table, key) in exact:
-        found = exact[kind, table, key]
-        return "" if found == "1" else found.removeprefix("1 (").removesuffix(")") if found.startswith("1 (") else found
-    fitting = [ending for ending in endings if key.endswith(ending)]
-    return endings[max(fitting, key=len)] if fitting else ""
+    parts = tokens(path)
+    found = KNOTS.get(str(parts[-2])) if is_knot(parts) else study._native.unit(path)
+    return "" if found in (None, "1") else found.removeprefix("1 (").removesuffix(")") if found.startswith("1 (") else found
 
 
 def alternatives(node: Any, value: Any) -> Iterator[dict[str, Any]]:
@@ -295,12 +279,13 @@ def knob(study: Study, path: str, value: Any) -> Knob | None:
         start, stop, logarithmic = axis[0], axis[1], axis[2] and axis[0] > 0.0
     if is_knot(parts) and not suffix:
         start, stop, logarithmic = span_of_knot(study, parts, number)
-    label, group = label_of(study, parts, str(node.get("description", "")))
+    unit = unit_of(study, path)
+    label, group = label_of(study, parts, str(node.get("description", "")), unit)
     return Knob(
         path=path,
         label=label,
         about=str(node.get("description", "")),
-        unit=suffix.strip() or unit_of(study._native.kind, parts),
+        unit=suffix.strip() or unit,
         group=group,
         value=number,
         low=low,
@@ -361,7 +346,7 @@ def span_of_knot(study: Study, parts: list[Token], value: float) -> tuple[float,
     return (-1.5 * size if least < 0.0 else 0.0), 1.5 * size, False
 
 
-def label_of(study: Study, parts: list[Token], about: str) -> tuple[str, str]:
+def label_of(study: Study, parts: list[Token], about: str = "", unit: str = "") -> tuple[str, str]:
     """The name of a number for its slider, and the group to which it belongs."""
     document: Any = study._native.document()
     group: list[str] = []
@@ -375,21 +360,19 @@ def label_of(study: Study, parts: list[Token], about: str) -> tuple[str, str]:
             group.append(token.replace("_", " "))
     last = parts[-1]
     if is_knot(parts):
-        return f"{stripped(str(parts[-2]))} {int(last) + 1}", " ".join(group[:-1])
+        return f"{stripped(str(parts[-2]), unit)} {int(last) + 1}", " ".join(group[:-1])
     if isinstance(last, int):
         # An element of a matrix or of a row.
         place = [str(token + 1) for token in parts if isinstance(token, int)]
         inner = [str(token) for token in parts if isinstance(token, str)]
-        return f"{stripped(inner[-1])} {','.join(place)}", " ".join(it.replace("_", " ") for it in inner[-1:] or group)
+        return f"{stripped(inner[-1], unit)} {','.join(place)}", " ".join(it.replace("_", " ") for it in inner[-1:] or group)
     symbol = about.partition(": ")[0] if ": " in about and len(about.partition(": ")[0]) <= 4 else ""
-    return " ".join(it for it in (stripped(str(last)), symbol) if it), " ".join(group)
+    return " ".join(it for it in (stripped(str(last), unit), symbol) if it), " ".join(group)
 
 
-def stripped(key: str) -> str:
+def stripped(key: str, unit: str) -> str:
     """A key as words, without its unit."""
-    fitting = [ending for ending in units()[1] if key.endswith(ending)]
-    short = key.removesuffix(max(fitting, key=len)) if fitting else key
-    return short.replace("_", " ")
+    return key.removesuffix(written(unit)).replace("_", " ")
 
 
 def knobs(study: Study) -> list[Knob]:
@@ -438,6 +421,6 @@ def choices(study: Study) -> list[Choice]:
             continue
         options = next((it["enum"] for it in described(study, parts) if "enum" in it), None)
         if options and value in options:
-            label, group = label_of(study, parts, "")
+            label, group = label_of(study, parts)
             found.append(Choice(path, label, group, value, tuple(options)))
     return found

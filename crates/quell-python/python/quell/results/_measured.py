@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+import numpy.typing as npt
+
+from .._frozen import FrozenDict, Records
 from .._result import Result
-from . import _columns
 
 if TYPE_CHECKING:
     from .._quell import NativeAnswer
@@ -17,9 +20,9 @@ __all__ = ["Comparison", "Decay", "LawFit", "RecordFit"]
 class _Estimates(Result):
     """What every fit says."""
 
-    parameters: dict[str, dict[str, float | bool | None]]
+    parameters: FrozenDict[FrozenDict[float | bool | None]]
     """``value``, ``standard_error`` and ``fixed`` by name, or by path of a study."""
-    covariance: dict[str, list[Any]]
+    covariance: FrozenDict[list[Any]]
     """``order``, the names or paths, and ``matrix``, row by row."""
     condition: float | None
     """Condition of the information matrix."""
@@ -52,11 +55,11 @@ class _ComparedLaws(_Estimates):
 
     law: str
     """The law with the least AIC."""
-    comparison: list[dict[str, Any]]
+    comparison: Records
     """Every law by ascending AIC."""
 
 
-class Decay(_columns.DecayColumns, _ComparedLaws, _OfRecord):
+class Decay(_ComparedLaws, _OfRecord):
     """Natural frequency, damping and friction from a free decay; arrays over the samples (n,). It has no study."""
 
     verb = "fit_decay"
@@ -68,11 +71,21 @@ class Decay(_columns.DecayColumns, _ComparedLaws, _OfRecord):
     """What the record shows."""
     not_determinable: list[str]
     """What no free decay determines."""
-    tables: dict[str, str]
+    tables: FrozenDict[str]
     """Tables to paste into a study: ``belt`` and ``uncertainty``."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    measured: npt.NDArray[np.float64]
+    """Measured record (n,)."""
+    fitted: npt.NDArray[np.float64]
+    """Computed record (n,)."""
+    fitted_deviation: npt.NDArray[np.float64]
+    """Standard deviation of the computed record (n,)."""
+    point_residual: npt.NDArray[np.float64]
+    """Measured less computed (n,)."""
 
 
-class LawFit(_columns.LawFitColumns, _ComparedLaws):
+class LawFit(_ComparedLaws):
     """Friction laws from measured friction; arrays over the points and over a grid of slip speeds. It has no study."""
 
     verb = "fit_laws"
@@ -88,17 +101,35 @@ class LawFit(_columns.LawFitColumns, _ComparedLaws):
     """Lines of the file without slip, which are left out."""
     not_determinable: list[str]
     """What steady sliding does not determine."""
-    left_out: list[dict[str, str]]
+    left_out: Records
     """Laws that could not be fitted, and why."""
+    slip_velocity: npt.NDArray[np.float64]
+    """Grid of slip speeds (n,)."""
+    coefficient: npt.NDArray[np.float64]
+    """Coefficient of the law (n,) on the grid."""
+    coefficient_low: npt.NDArray[np.float64]
+    """Lower end of its band (n,)."""
+    coefficient_high: npt.NDArray[np.float64]
+    """Upper end of its band (n,)."""
+    line: npt.NDArray[np.float64]
+    """Line of the file of each measured point (m,)."""
+    points_point_velocity: npt.NDArray[np.float64]
+    """Measured slip speed (m,)."""
+    points_point_coefficient: npt.NDArray[np.float64]
+    """Measured coefficient (m,)."""
+    points_point_deviation: npt.NDArray[np.float64]
+    """Its standard deviation (m,)."""
+    points_point_residual: npt.NDArray[np.float64]
+    """Measured less computed coefficient (m,)."""
 
     @property
-    def tables(self) -> dict[str, str]:
+    def tables(self) -> FrozenDict[str]:
         """Tables to paste into a study: ``friction`` and ``uncertainty``, the fact ``study``."""
-        found: dict[str, str] = self.facts["study"]
+        found: FrozenDict[str] = self.facts["study"]
         return found
 
 
-class RecordFit(_columns.RecordFitColumns, _OfRecord):
+class RecordFit(_OfRecord):
     """Numbers of a study from a measured record; arrays over the samples (n,)."""
 
     verb = "fit_record"
@@ -112,23 +143,43 @@ class RecordFit(_columns.RecordFitColumns, _OfRecord):
     """What the record shows."""
     shift_from: str | None
     """Where a free shift counts from."""
-    other_minima: list[dict[str, Any]]
+    other_minima: Records
     """Other minima of the sum of squares."""
-    not_determinable: list[dict[str, Any]]
+    not_determinable: Records
     """Combinations of numbers that the record hardly determines."""
-    tables: dict[str, str]
+    tables: FrozenDict[str]
     """Tables to paste into the study: ``numbers`` and ``uncertainty``."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    measured: npt.NDArray[np.float64]
+    """Measured record (n,)."""
+    fitted: npt.NDArray[np.float64]
+    """Computed record (n,)."""
+    point_residual: npt.NDArray[np.float64]
+    """Measured less computed (n,)."""
 
 
-class Comparison(_columns.ComparisonColumns, Result):
+class Comparison(Result):
     """Measured and computed spectra; arrays over frequencies (n,), those of a second file with the ending of its dataset."""
 
     verb = "compare"
-    before: dict[str, Any]
+    before: FrozenDict[Any]
     """The first file: ``lines``, ``measured_rms``, ``computed_rms``, ``resolution``, ``not_comparable``."""
-    after: dict[str, Any] | None
+    after: FrozenDict[Any] | None
     """The same of the second file."""
-    reduction: dict[str, float] | None
+    reduction: FrozenDict[float] | None
     """Decibels by which the dither reduces the vibration: ``measured``, ``predicted``, ``difference``."""
-    slow_reduction: dict[str, float] | None
+    slow_reduction: FrozenDict[float] | None
     """The same of the vibration below the dither."""
+    frequency: npt.NDArray[np.float64]
+    """Frequency (n,) in Hz of the first file."""
+    measured: npt.NDArray[np.float64]
+    """Measured amplitude (n,)."""
+    computed: npt.NDArray[np.float64]
+    """Computed amplitude (n,)."""
+    frequency_after: npt.NDArray[np.float64]
+    """Frequency (m,) in Hz of the second file."""
+    after_measured_after: npt.NDArray[np.float64]
+    """Measured amplitude (m,) under dither."""
+    after_computed_after: npt.NDArray[np.float64]
+    """Computed amplitude (m,) under dither."""

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from .._frozen import FrozenDict, Records
 from .._result import Result, numbers_of
-from . import _columns
 from ._steady import Verdict
 
 if TYPE_CHECKING:
@@ -17,27 +17,27 @@ if TYPE_CHECKING:
     from .._tables import Number
 
 
-class Simulation(_columns.SimulationColumns, Result):
+class Simulation(Result):
     """A trajectory: its end, its events, its samples."""
 
     verb = "simulate"
-    final: dict[str, Any]
+    final: FrozenDict[Any]
     """``time``, observed ``displacement`` and ``velocity``, ``state`` and ``contacts`` at the end: ``name``, ``slip_velocity``,
     ``sticking``, ``open``, ``slip_sign``, ``friction``, ``normal`` of each."""
-    events: list[dict[str, Any]]
+    events: Records
     """``time``, ``contact``, ``kind`` ("stick", "release", "reversal", "separation", "landing"), ``slip_sign``, observed
     ``displacement`` and ``velocity``, and ``state`` of every event."""
-    manoeuvre: dict[str, Any]
+    manoeuvre: FrozenDict[Any]
     """Where drive, load or dither varies in time: ``vibration`` (``from``, ``to``, ``amplitude`` of each interval),
     ``dither_onset``, ``time_to_quench`` and ``overshoot``."""
     event_count: int
     """Number of events, including those that were not kept."""
-    sound: dict[str, Any]
+    sound: FrozenDict[Any]
     """With ``sound``: ``sample_rate``, ``duration_s``, ``transposition``, ``natural_frequency_hz`` (where the lowest one sounds),
     ``strongest_frequency_hz``, ``gain`` and ``clipped`` of the file that ``save("run.wav")`` writes."""
-    event_counts: dict[str, int]
+    event_counts: FrozenDict[int]
     """Number of events of each kind."""
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """``name``, ``event_counts``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``, ``least_normal``,
     ``friction_power`` of every contact over the run."""
     state_names: list[str]
@@ -46,7 +46,7 @@ class Simulation(_columns.SimulationColumns, Result):
     """Disc: half the peak-to-peak deflection under the first load over the last tenth of the run."""
     growth_observed: float | None
     """Disc: growth rate of the extremes of that deflection while the motion is small, in ω_ref."""
-    start: dict[str, Any]
+    start: FrozenDict[Any]
     """``time`` and state at the begin, as in ``final``; of a disc also the ``amplitude`` of its small motion."""
     steps: int
     """Number of steps of the integration."""
@@ -58,6 +58,20 @@ class Simulation(_columns.SimulationColumns, Result):
     """Disc: growth rate of the small motion at the start, in ω_ref."""
     leading_frequency: float
     """Disc: frequency of that motion, in ω_ref."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    displacement: npt.NDArray[np.float64]
+    """Observed displacement (n,)."""
+    velocity: npt.NDArray[np.float64]
+    """Observed velocity (n,)."""
+    belt_slip_velocity: npt.NDArray[np.float64]
+    """Belt: slip velocity (n,)."""
+    belt_friction: npt.NDArray[np.float64]
+    """Belt: friction force (n,)."""
+    belt_normal: npt.NDArray[np.float64]
+    """Belt: normal load (n,)."""
+    belt_phase: npt.NDArray[np.uint8]
+    """Belt: code of slip, stick or open (n,)."""
 
     def events_frame(self) -> pandas.DataFrame:
         """The events as a pandas DataFrame, one row for each, in the units of the study.
@@ -87,7 +101,7 @@ class Simulation(_columns.SimulationColumns, Result):
         return self.study.simulate(until, events=events, samples=samples, t_eval=t_eval, start=self.final)
 
 
-class Window(_columns.WindowColumns, Result):
+class Window(Result):
     """What a run does between two of its times."""
 
     verb = "response --window"
@@ -105,12 +119,16 @@ class Window(_columns.WindowColumns, Result):
     """Amplitude of the largest line of the spectrum."""
     strongest_frequency: float | None
     """Its frequency."""
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """What each contact did on average: ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``,
     ``least_normal``, ``friction_power``."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    displacement: npt.NDArray[np.float64]
+    """Observed displacement (n,)."""
 
 
-class NoiseResponse(_columns.NoiseResponseColumns, Result):
+class NoiseResponse(Result):
     """The response under noise: runs with different seeds."""
 
     verb = "response"
@@ -144,9 +162,9 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     """Largest spectral amplitude of each run in the band of slow vibration."""
     undithered_amplitude: float
     """The same without dither."""
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """``stick_fraction`` (one of each run), ``mean_friction`` and ``mean_friction_undithered`` of every contact."""
-    dithers: list[dict[str, Any]]
+    dithers: Records
     """``force_rms``, ``displacement_rms``, ``velocity_rms`` and ``power`` of every dither at its point; peaks have no value."""
     band_end: float
     """Upper end of the band."""
@@ -154,9 +172,15 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     """Time before the record."""
     record_length: float
     """Length of the record."""
+    seed: npt.NDArray[np.float64]
+    """Seed of each run (n,)."""
+    stick_fraction: npt.NDArray[np.float64]
+    """Fraction of the record in stick (n,)."""
+    mean_friction: npt.NDArray[np.float64]
+    """Mean friction (n,)."""
 
 
-class Response(_columns.ResponseColumns, Result):
+class Response(Result):
     """The steady response with and without dither."""
 
     verb = "response"
@@ -182,7 +206,7 @@ class Response(_columns.ResponseColumns, Result):
     """Whether both halves of the record have the same amplitude."""
     undithered_settled: bool
     """The same without dither."""
-    peaks: list[dict[str, float]]
+    peaks: Records
     """Peaks of the spectrum: ``frequency``, ``amplitude``."""
     band_displacement_level_db: float | None
     """Change of the level of the displacement in the band of the study, in dB."""
@@ -222,10 +246,10 @@ class Response(_columns.ResponseColumns, Result):
     """Number of releases that barely crossed the stiction threshold."""
     band_end: float
     """Upper end of the band of ``amplitude`` and ``residual_vibration``, an angular frequency."""
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """``name``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``, ``least_normal``, ``friction_power``,
     ``mean_friction_undithered``, ``steady_sliding_friction`` and ``friction_loss`` of every contact."""
-    dithers: list[dict[str, Any]]
+    dithers: Records
     """``power`` that each dither feeds in, and the peak-to-peak ``stroke`` of the point on which it acts."""
     band_from: float | None
     """Lower end of the band of the study."""
@@ -235,9 +259,25 @@ class Response(_columns.ResponseColumns, Result):
     """Time before the record."""
     record_length: float
     """Length of the record."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,)."""
+    displacement: npt.NDArray[np.float64]
+    """Observed displacement (n,)."""
+    velocity: npt.NDArray[np.float64]
+    """Observed velocity (n,)."""
+    undithered_displacement: npt.NDArray[np.float64]
+    """The displacement without dither (n,)."""
+    undithered_velocity: npt.NDArray[np.float64]
+    """The velocity without dither (n,)."""
+    frequency: npt.NDArray[np.float64]
+    """Angular frequency (m,) of the spectrum."""
+    spectrum_amplitude: npt.NDArray[np.float64]
+    """Amplitude (m,) of the displacement."""
+    spectrum_undithered_amplitude: npt.NDArray[np.float64]
+    """The same without dither (m,)."""
 
 
-class Orbit(_columns.OrbitColumns, Result):
+class Orbit(Result):
     """A periodic response and its Floquet multipliers."""
 
     verb = "orbit"
@@ -281,21 +321,31 @@ class Orbit(_columns.OrbitColumns, Result):
     """Least observed velocity."""
     highest_velocity: float | None
     """Largest observed velocity."""
-    events: list[dict[str, Any]]
+    events: Records
     """``time``, ``contact``, ``kind``, ``slip_sign`` and ``state`` of the events of a period."""
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """``name``, ``signature``, ``stick_episodes``, ``reversals``, ``least_slip_velocity``, ``stick_fraction`` and
     ``open_fraction`` of every contact."""
     start: str
     """The start of the run that was followed, in words."""
     periods_to_settle: int
     """Periods of the dither until that run was near the response."""
-    cycles: list[dict[str, Any]] | None
+    cycles: Records | None
     """Without dither: every limit cycle, each with all of these facts; ``None`` where they are not all known."""
     tried: list[str]
     """Without dither: the starts from which a limit cycle was searched."""
     steady_sliding: str
     """Without dither: the verdict on steady sliding."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,) of a period."""
+    belt_slip_velocity: npt.NDArray[np.float64]
+    """Belt: slip velocity (n,)."""
+    belt_friction: npt.NDArray[np.float64]
+    """Belt: friction force (n,)."""
+    belt_normal: npt.NDArray[np.float64]
+    """Belt: normal load (n,)."""
+    belt_phase: npt.NDArray[np.uint8]
+    """Belt: code of slip, stick or open (n,)."""
 
     @property
     def multipliers(self) -> npt.NDArray[np.complex128]:
@@ -303,19 +353,21 @@ class Orbit(_columns.OrbitColumns, Result):
         return numbers_of(self.facts["multipliers"] or [])
 
 
-class Attractor(_columns.AttractorColumns, Result):
+class Attractor(Result):
     """The motion on which a run ends, and its Lyapunov exponents."""
 
     verb = "attractor"
     start: str
     """The start in words."""
-    attractor: dict[str, Any] | None
+    attractor: FrozenDict[Any] | None
     """``kind``, ``quiet``, ``periods``, ``multiplier``, ``lowest``, ``highest``, …; ``None`` if the run did not settle."""
     periods_until_settled: int | None
     """Periods of the dither until the run was near the motion."""
-    lyapunov: dict[str, Any] | None
+    lyapunov: FrozenDict[Any] | None
     """With ``lyapunov=True``, or ``None`` with the reason in ``why``: ``exponents`` (largest first; ``None`` where a stick erases
     the direction, −∞) with their standard ``errors``, per unit of time; ``time`` of the record and ``settle`` before it;
     ``verdict`` ("regular", "irregular (chaotic)", "unknown"); ``deciding``, the largest exponent apart from the 0 of a shift in
     time, whose place is ``shift_in_time``; ``kaplan_yorke_dimension``; ``of_multiplier``, the same rate by the multipliers of a
     periodic motion, and ``agrees_with_multipliers``."""
+    time: npt.NDArray[np.float64]
+    """Time of each sample (n,) of the motion."""

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from .._frozen import FrozenDict, Records
 from .._result import Result, numbers_of
-from . import _columns
 
 if TYPE_CHECKING:
     from .._quell import NativeAnswer
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Verdict = Literal["stable", "unstable", "undecided"]
 
 
-class Check(_columns.CheckColumns, Result):
+class Check(Result):
     """The study in numbers."""
 
     verb = "check"
@@ -25,7 +25,7 @@ class Check(_columns.CheckColumns, Result):
     """Belt and system: names of the coordinates or states."""
     damping_ratios: list[float]
     """Belt and system: damping ratio of each coordinate alone; absent where one has no spring of its own."""
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """Belt and system: ``name``, ``normal_load``, ``belt_velocity``, ``tangential_stiffness`` and ``breakaway`` of each contact, whether
     ``normal`` and ``tangent`` are given, and its ``friction``: ``law``, its parameters, and the range of slip in which it holds; of a fit also
     its error. What varies in time has ``least_`` and ``largest_``."""
@@ -35,64 +35,56 @@ class Check(_columns.CheckColumns, Result):
     """Title of the study."""
     form: Literal["coordinates", "states"]
     """Belt and system: how the structure is given."""
-    disc: dict[str, Any]
+    disc: FrozenDict[Any]
     """Disc: ``modes`` (their number), ``modes_from``, ``loads``, ``speed``, ``without``."""
-    dither: dict[str, Any] | None
+    dither: FrozenDict[Any] | None
     """Disc: its dither."""
-    dithers: list[dict[str, Any]]
+    dithers: Records
     """Belt and system: the waves of the dithers, each with its place, ``waveform``, ``amplitude``, ``frequency``, ``phase``, ``has_envelope``."""
-    given_amplitudes: list[dict[str, Any]]
+    given_amplitudes: Records
     """Belt and system: amplitudes of the dither that are given by another size than a peak force: ``key``, ``value``, ``unit``,
     ``amplitude``, ``amplitude_unit``, and whether it is ``by_actuator``."""
     observe: list[float]
     """Belt and system: row of the observed displacement."""
     initial: str | list[float]
     """Belt and system: the initial state in words or numbers."""
-    sweeps: list[dict[str, Any]]
+    sweeps: Records
     """Axes of a map: ``parameter`` and its values."""
 
 
-class Citations(_columns.CitationsColumns, Result):
+class Citations(Result):
     """Sources of the computations for a study, and corrections of their printed equations."""
 
     verb = "cite"
-    sources: list[dict[str, Any]]
+    sources: Records
     """``key``, ``reference``, and ``used``, the purpose."""
-    corrections: list[dict[str, Any]]
+    corrections: Records
     """Errors in the print of a source, with the correct form."""
     bibtex: str
     """The sources as BibTeX entries."""
 
 
-class FrictionCurve(_columns.FrictionCurveColumns, Result):
+class FrictionCurve(Result):
     """The friction law of every contact and its average under the dither: arrays have one row for each contact and slip velocity (n,),
     those of a belt one row for each slip velocity."""
 
     verb = "friction"
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """``name``, ``surface_velocity``, the largest ``fast_velocity``, the ``law`` with its parameters and the range of slip in which it holds,
     and over ``slip_velocity``: ``coefficient``, ``effective_coefficient`` and ``effective_slope`` with their errors and whether the slope is
     ``effective_slope_one_sided``; measured also ``measured_verdict`` and ``measured_base``."""
-
-    @property
-    def slip_velocity(self) -> npt.NDArray[np.float64]:
-        """v_r (n,), in the unit of the study."""
-        return self.arrays["slip_velocity"].values
-
-    @property
-    def coefficient(self) -> npt.NDArray[np.float64]:
-        """μ (n,); NaN at v_r = 0, where friction takes any value up to ±μ_s."""
-        return self.arrays["coefficient"].values
-
-    @property
-    def effective_coefficient(self) -> npt.NDArray[np.float64]:
-        """μ̄ (n,); NaN where it is undefined."""
-        return self.arrays["effective_coefficient"].values
-
-    @property
-    def effective_slope(self) -> npt.NDArray[np.float64]:
-        """μ̄′ (n,) per unit of ``slip_velocity``; NaN where it is undefined."""
-        return self.arrays["effective_slope"].values
+    row: npt.NDArray[np.float64]
+    """Number of each row."""
+    contact_number: npt.NDArray[np.float64]
+    """Contact of each row, counted from 0."""
+    slip_velocity: npt.NDArray[np.float64]
+    """v_r (n,), in the unit of the study."""
+    coefficient: npt.NDArray[np.float64]
+    """μ (n,); NaN at v_r = 0, where friction takes any value up to ±μ_s."""
+    effective_coefficient: npt.NDArray[np.float64]
+    """μ̄ (n,); NaN where it is undefined."""
+    effective_slope: npt.NDArray[np.float64]
+    """μ̄′ (n,) per unit of ``slip_velocity``; NaN where it is undefined."""
 
     @property
     def limit_effective_coefficient(self) -> npt.NDArray[np.float64] | None:
@@ -126,7 +118,7 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
         return None if found is None else found.values
 
 
-class DescribingFunction(_columns.DescribingFunctionColumns, Result):
+class DescribingFunction(Result):
     """Averaged friction of every contact under a slow sinusoid of its slip velocity; arrays have one row for each contact
     and velocity amplitude."""
 
@@ -139,21 +131,33 @@ class DescribingFunction(_columns.DescribingFunctionColumns, Result):
     """Its amplitude of the observed displacement."""
     limit_cycle_frequency: float | None
     """Its frequency."""
-    limit_cycles: list[dict[str, Any]] | None
+    limit_cycles: Records | None
     """Every limit cycle: ``velocity_amplitude``, ``velocity_amplitude_error``, ``amplitude``, ``frequency``, ``stable``."""
     small_growth_rate: float | None
     """Growth rate of small slow motions."""
     growth_rate: list[float] | None
     """Growth rate of slow motions at the amplitudes of this contact."""
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """``name``, ``slip_velocity``, ``normal_load``, ``small_gain``, and over ``velocity_amplitude``: ``mean_coefficient``, ``gain``
     with ``gain_error``, and ``undithered_gain``."""
-    limit: dict[str, Any] | None
+    limit: FrozenDict[Any] | None
     """One mass under dither: ``small_gain``, ``limit_cycle_velocity``, ``limit_cycle_amplitude`` and ``limit_cycles`` in the limit of high
     dither frequency."""
+    row: npt.NDArray[np.float64]
+    """Number of each row."""
+    contact_number: npt.NDArray[np.float64]
+    """Contact of each row, counted from 0."""
+    velocity_amplitude: npt.NDArray[np.float64]
+    """Velocity amplitude (n,) of the sinusoid."""
+    mean_coefficient: npt.NDArray[np.float64]
+    """Mean of the averaged coefficient (n,)."""
+    gain: npt.NDArray[np.float64]
+    """Describing function (n,), per unit of velocity."""
+    undithered_gain: npt.NDArray[np.float64]
+    """The same without dither (n,)."""
 
 
-class Design(_columns.DesignColumns, Result):
+class Design(Result):
     """The least dither that is quiet over a box of operating points; arrays over the choices that were tried (n,)."""
 
     verb = "design"
@@ -165,17 +169,17 @@ class Design(_columns.DesignColumns, Result):
     """Where it acts; ``None`` without ``places`` in ``[design]``."""
     minimise: str
     """What is to be small."""
-    critical: dict[str, float] | None
+    critical: FrozenDict[float] | None
     """The exact least dither by paths; ``None`` where no dither is allowed."""
-    parameters: dict[str, float] | None
+    parameters: FrozenDict[float] | None
     """The dither that was verified, 0.1 % above the least one or at the end of its range; where no dither is allowed, that of ``covered``."""
-    averaged: dict[str, float] | None
+    averaged: FrozenDict[float] | None
     """The least dither by averaging alone."""
     objective: float | None
     """The objective of the exact least dither."""
     binding: list[str] | None
     """Names of the limits that are used wholly, and paths of numbers at an end of their range."""
-    worst: dict[str, float] | None
+    worst: FrozenDict[float] | None
     """The operating point that decides."""
     margin: float | None
     """Share by which the verified amplitude exceeds the least one."""
@@ -191,31 +195,31 @@ class Design(_columns.DesignColumns, Result):
     """Its amplitude."""
     loud_from: float | None
     """The larger amplitude from which it vibrates again somewhere in the box; ``None`` where no amplitude of the range does."""
-    verified: dict[str, Any] | None
+    verified: FrozenDict[Any] | None
     """``protocol``, ``multiplier`` (of a disc ``growth_rate`` too) and ``point`` of the deciding operating point, the
     ``largest_multiplier``, and the number of ``operating_points``."""
-    confident: dict[str, Any] | None
+    confident: FrozenDict[Any] | None
     """The dither that is quiet in the share ``confidence`` of ``samples``: its ``parameters``, ``amplitude`` with its 95 % interval
     from ``low`` to ``high``, ``over_least``, ``objective``, ``limits`` and whether they are kept (``allowed``); samples whose threshold
     is ``exact``, ``never_quiet``, ``loud_again`` by averaging, ``unknown`` or ``invalid``. ``None`` without ``confidence`` in
     ``[design]``."""
     friction_loss: float | None
     """The largest share of the mean friction that is lost, on exact responses."""
-    drive: dict[str, Any] | None
+    drive: FrozenDict[Any] | None
     """What the verified dither demands of the actuator: ``force``, ``displacement``, ``voltage`` and ``current``, each as ``peak``,
     ``rms`` and ``peak_to_peak``; ``samples_per_period``; how far each limit is ``used`` (``rated``); the operating ``point``."""
-    limits: list[dict[str, Any]]
+    limits: Records
     """How far each limit is ``used``."""
-    frontier: list[dict[str, Any]]
+    frontier: Records
     """The least objective by averaging against each ``limit`` and its ``value``."""
-    basins: list[dict[str, Any]]
+    basins: Records
     """The local minima that were found by averaging: ``parameters`` and ``objective``."""
-    waveforms: list[dict[str, Any]]
+    waveforms: Records
     """The answer of each dither that was tried: ``waveform``, of a burst ``on`` and ``off``, ``place``, ``feasible``, ``critical``,
     ``objective``."""
-    covered: dict[str, list[float]] | None
+    covered: FrozenDict[list[float]] | None
     """Where no dither is allowed: the largest part of the box that one dither serves."""
-    examined: dict[str, Any] | None
+    examined: FrozenDict[Any] | None
     """What was examined of it: the number of ``points``, all of which the dither serves, the ``largest_gap`` between two of them, and
     what is ``below`` and ``above`` it: ``"not examined"`` where the box ends, ``"loud"``, the name of a limit that is exceeded, or
     ``None`` where that is unknown."""
@@ -224,26 +228,31 @@ class Design(_columns.DesignColumns, Result):
     box."""
     response_peak: float | None
     """Half of its range, the largest of the box."""
-    schedule: list[dict[str, Any]] | None
+    schedule: Records | None
     """For a box of one coordinate the exact least dither at 33 operating points: the coordinate by its path, ``amplitude``,
     ``objective``."""
     saved_by_schedule: float | None
     """Share of the objective that such a dither saves on average."""
-    sensitivity: dict[str, float | None] | None
+    sensitivity: FrozenDict[float | None] | None
     """Exact derivative of the least amplitude with respect to each number of the study by its path, at the operating point that decides:
     the unit of the amplitude per unit of the number. ``None`` where the amplitude is that of runs from a start."""
-    sensitivity_relative: dict[str, float | None] | None
+    sensitivity_relative: FrozenDict[float | None] | None
     """The same as percents of amplitude per percent of the number."""
-    threshold: dict[str, Any] | None
+    threshold: FrozenDict[Any] | None
     """``kind`` of the threshold that decides, and the one that it ``meets`` at a tip."""
+    number: npt.NDArray[np.float64]
+    """Number of each choice (n,)."""
+    amplitude: npt.NDArray[np.float64]
+    """Amplitude of each choice (n,); numbers that are searched have arrays of their keys."""
+    dither_frequency_ratio: npt.NDArray[np.float64]
+    """Frequency ratio of each choice (n,), if it is searched."""
+    dither_frequency_hz: npt.NDArray[np.float64]
+    """Frequency of each choice (n,) in Hz, if it is searched."""
+    used: npt.NDArray[np.float64]
+    """Largest use of a limit at each choice (n,): at most 1 where every limit is kept."""
 
-    @property
-    def used(self) -> npt.NDArray[np.float64]:
-        """Largest use of a limit at each choice (n,): at most 1 where every limit is kept."""
-        return self.arrays["used"].values
 
-
-class Actuator(_columns.ActuatorColumns, Result):
+class Actuator(Result):
     """What the actuator can give over the frequency of the dither, and what quenching needs; arrays over the frequency (n,), with the largest
     slip velocity of the dither at each contact, at the largest amplitude, in ``slip_of_`` and its name."""
 
@@ -258,59 +267,40 @@ class Actuator(_columns.ActuatorColumns, Result):
     """Whether the actuator suffices anywhere in the range."""
     quiet_without: bool
     """Whether steady sliding is stable without this dither."""
-    sufficient: list[dict[str, Any]]
+    sufficient: Records
     """Where the actuator suffices: ``from``, ``to``, and the ``best`` frequency with its ``margin``, ``amplitude``, ``needed``, ``limit``
     and ``contacts``."""
-    best: dict[str, Any] | None
+    best: FrozenDict[Any] | None
     """The largest margin of the range: ``frequency``, ``amplitude``, ``limit``, ``needed``, ``margin``, ``contacts``."""
-    own: dict[str, Any]
+    own: FrozenDict[Any]
     """The same at the frequency of the study, with its ``given`` amplitude, the share of the largest one that is ``used``, and its
     ``drive``."""
-    binding: list[dict[str, Any]]
+    binding: Records
     """Which ``limit`` binds ``from`` one frequency ``to`` another."""
     from_: float
     """Lower end of the range of frequencies."""
     to: float
     """Upper end of the range of frequencies."""
-    changes: list[dict[str, Any]]
+    changes: Records
     """Each ``frequency`` at which the limit changes: the one ``below`` and the one ``above``."""
-    resonances: list[dict[str, Any]]
+    resonances: Records
     """Frequencies at which little dither suffices, and whether each ``helps``."""
-
-    @property
-    def frequency(self) -> npt.NDArray[np.float64]:
-        """Angular frequency of the dither (n,), in the unit of the study; without units over ω₀ of a belt, which is R."""
-        return self.arrays["frequency"].values
-
-    @property
-    def amplitude(self) -> npt.NDArray[np.float64]:
-        """Largest amplitude that the actuator can give (n,); NaN where it is unknown."""
-        return self.arrays["amplitude"].values
-
-    @property
-    def needed(self) -> npt.NDArray[np.float64]:
-        """Least amplitude that quenches by averaging (n,); NaN where none does."""
-        return self.arrays["needed"].values
-
-    @property
-    def margin(self) -> npt.NDArray[np.float64]:
-        """The largest amplitude over the least one (n,)."""
-        return self.arrays["margin"].values
-
-    @property
-    def voltage(self) -> npt.NDArray[np.float64]:
-        """Peak of the voltage about its mean at the largest amplitude (n,), in V."""
-        return self.arrays["voltage"].values
-
-    @property
-    def current(self) -> npt.NDArray[np.float64]:
-        """Peak of the current about its mean at the largest amplitude (n,), in A."""
-        return self.arrays["current"].values
-
-    @property
-    def stroke(self) -> npt.NDArray[np.float64]:
-        """Peak-to-peak displacement of the driven point at the largest amplitude (n,)."""
-        return self.arrays["stroke"].values
+    slip_of_belt: npt.NDArray[np.float64]
+    """Belt: largest slip velocity of the dither (n,), at the largest amplitude."""
+    frequency: npt.NDArray[np.float64]
+    """Angular frequency of the dither (n,), in the unit of the study; without units over ω₀ of a belt, which is R."""
+    amplitude: npt.NDArray[np.float64]
+    """Largest amplitude that the actuator can give (n,); NaN where it is unknown."""
+    needed: npt.NDArray[np.float64]
+    """Least amplitude that quenches by averaging (n,); NaN where none does."""
+    margin: npt.NDArray[np.float64]
+    """The largest amplitude over the least one (n,)."""
+    voltage: npt.NDArray[np.float64]
+    """Peak of the voltage about its mean at the largest amplitude (n,), in V."""
+    current: npt.NDArray[np.float64]
+    """Peak of the current about its mean at the largest amplitude (n,), in A."""
+    stroke: npt.NDArray[np.float64]
+    """Peak-to-peak displacement of the driven point at the largest amplitude (n,)."""
 
     @property
     def limit(self) -> npt.NDArray[np.str_]:
@@ -318,7 +308,7 @@ class Actuator(_columns.ActuatorColumns, Result):
         return self.arrays["limit"].words()
 
 
-class Probability(_columns.ProbabilityColumns, Result):
+class Probability(Result):
     """How probable it is that a study vibrates; arrays over shares of the samples (n,)."""
 
     verb = "probability"
@@ -342,71 +332,57 @@ class Probability(_columns.ProbabilityColumns, Result):
     """Samples that do not."""
     unknown: int
     """Samples whose verdict is unknown; the interval includes both verdicts."""
-    limit: dict[str, Any]
+    limit: FrozenDict[Any]
     """Of a dithered belt, in the limit of high dither frequency: ``quantiles``, ``indices`` and, judged by averaging, ``probability``,
     ``low``, ``high``, ``vibrating``, ``quiet`` and ``unknown``."""
-    quantiles: dict[str, dict[str, float]]
+    quantiles: FrozenDict[FrozenDict[float]]
     """Quantiles 0.05, 0.5 and 0.95 of the growth rate, ``growth``."""
-    thresholds: list[dict[str, Any]]
+    thresholds: Records
     """The least ``amplitude`` of the first dither that is enough for a ``share`` of the samples: 0.05, 0.5 and 0.95."""
-    indices: dict[str, dict[str, float | None]]
+    indices: FrozenDict[FrozenDict[float | None]]
     """Sobol indices of the growth rate by path: ``first`` and ``total`` with their standard errors."""
-    groups: list[dict[str, Any]]
+    groups: Records
     """Indices of each group of correlated numbers, ``of``."""
     invalid: int
     """Samples that are no valid studies and are left out."""
-
-    @property
-    def share(self) -> npt.NDArray[np.float64]:
-        """Share of the samples (n,) up to each growth rate."""
-        return self.arrays["share"].values
-
-    @property
-    def growth(self) -> npt.NDArray[np.float64]:
-        """Growth rate (n,), ascending."""
-        return self.arrays["growth"].values
+    share: npt.NDArray[np.float64]
+    """Share of the samples (n,) up to each growth rate."""
+    growth: npt.NDArray[np.float64]
+    """Growth rate (n,), ascending."""
 
 
-class Waveforms(_columns.WaveformsColumns, Result):
+class Waveforms(Result):
     """The least dither of each waveform that quenches, and its cost; arrays over the waveforms (n,)."""
 
     verb = "waveforms"
     carrier: str
     """Carrier of the bursts."""
-    waveforms: list[dict[str, Any]]
+    waveforms: Records
     """Each waveform: ``waveform``, ``label``, ``own``, ``duty_cycle``; whether averaging cannot rank it (``slow``); by averaging ``amplitude``,
     ``root_mean_square``, ``power``, ``stroke``, ``velocity``, ``until``; at the exact amplitude the same with ``exact_``; of bursts ``on``
     and ``off``."""
     ranked_by: str
     """What ranks the waveforms: "exact", or "averaging" where none has an exact amplitude."""
-    best: dict[str, str | None]
+    best: FrozenDict[str | None]
     """Label of the waveform that is smallest in amplitude, rms force, power, stroke and velocity, of those that are ranked."""
+    number: npt.NDArray[np.float64]
+    """Number of each waveform (n,)."""
+    waveform: npt.NDArray[np.uint8]
+    """Code of each waveform (n,)."""
+    amplitude: npt.NDArray[np.float64]
+    """Least amplitude by averaging (n,), in the unit of the study; NaN where no amplitude quenches."""
+    root_mean_square: npt.NDArray[np.float64]
+    """Root mean square of that force (n,)."""
+    power: npt.NDArray[np.float64]
+    """Mean power into the structure without friction, of a system into the sliding structure (n,)."""
+    stroke: npt.NDArray[np.float64]
+    """Peak-to-peak displacement of the mass without friction, of a system at the driven point (n,)."""
 
     @property
     def duty_cycle(self) -> npt.NDArray[np.float64] | None:
         """Share of the period in which the dither acts (n,): 1 except for bursts."""
         found = self.arrays.get("duty_cycle")
         return None if found is None else found.values
-
-    @property
-    def amplitude(self) -> npt.NDArray[np.float64]:
-        """Least amplitude by averaging (n,), in the unit of the study; NaN where no amplitude quenches."""
-        return self.arrays["amplitude"].values
-
-    @property
-    def root_mean_square(self) -> npt.NDArray[np.float64]:
-        """Root mean square of that force (n,)."""
-        return self.arrays["root_mean_square"].values
-
-    @property
-    def power(self) -> npt.NDArray[np.float64]:
-        """Mean power into the structure without friction, of a system into the sliding structure (n,)."""
-        return self.arrays["power"].values
-
-    @property
-    def stroke(self) -> npt.NDArray[np.float64]:
-        """Peak-to-peak displacement of the mass without friction, of a system at the driven point (n,)."""
-        return self.arrays["stroke"].values
 
     @property
     def velocity(self) -> npt.NDArray[np.float64] | None:
@@ -421,7 +397,7 @@ class Waveforms(_columns.WaveformsColumns, Result):
         return None if found is None else found.values
 
 
-class Stability(_columns.StabilityColumns, Result):
+class Stability(Result):
     """Stability of steady sliding by eigenvalues of small motions, under dither by averaging."""
 
     verb = "stability"
@@ -429,25 +405,27 @@ class Stability(_columns.StabilityColumns, Result):
     """Whether small motions decay."""
     protocol: str
     """Method: "averaged", "linearised" or "floquet"."""
-    critical_amplitudes: list[dict[str, Any]] | None
+    critical_amplitudes: Records | None
     """Every amplitude of the first dither at which the verdict changes: ``amplitude``, ``amplitude_error``, ``kind``, ``becomes``, …"""
     growth_rate: float | None
     """Largest growth rate, per unit of time."""
+    growth_rate_db_per_s: float | None
+    """The same in decibels per second, of a study with units."""
     growth_rate_error: float | None
     """Bound on the error of the growth rate."""
     frequency: float | None
     """Angular frequency of the motion that grows fastest or decays slowest."""
-    motions: list[dict[str, Any]]
+    motions: Records
     """``growth_rate``, ``frequency``, ``damping_ratio``, ``error``, ``shape`` and ``friction_work`` of each motion."""
-    contacts: list[dict[str, Any]]
+    contacts: Records
     """``name``, ``friction``, ``normal``, ``slip_amplitude``, ``effective_coefficient``, … of each contact."""
-    undithered: dict[str, Any] | None
+    undithered: FrozenDict[Any] | None
     """``verdict``, ``growth_rate`` and ``frequency`` without dither."""
     criterion: float | None
     """One mass: 2ζ + Fμ̄′ (2.26), stable where positive."""
-    unstable_surface_velocities: list[dict[str, Any]] | None
+    unstable_surface_velocities: Records | None
     """One mass: ``lower``, ``lower_kind`` and ``upper`` of each range of surface velocities in which sliding is unstable."""
-    limit: dict[str, Any] | None
+    limit: FrozenDict[Any] | None
     """One mass: the averages of the dissertation, in the limit of high dither frequency, R → ∞ (2.26); ``None`` without dither."""
     everywhere_stable_amplitude: float | None
     """One mass: amplitude from which on sliding is stable at any surface velocity."""
@@ -455,7 +433,7 @@ class Stability(_columns.StabilityColumns, Result):
     """One mass: the same over the angular frequency: a velocity."""
     unstable_modes: list[int]
     """Disc: modes that grow."""
-    critical_speeds: list[dict[str, Any]]
+    critical_speeds: Records
     """Disc: ``mode``, ``diameters``, ``speed`` of each critical speed, and whether the speed of the study is ``near``."""
     speed: float
     """Disc: speed of the loads."""
@@ -463,7 +441,7 @@ class Stability(_columns.StabilityColumns, Result):
     """Disc with units and a radius of the first load: speed of the surface there."""
     without: list[str]
     """Disc: contributions that were left out."""
-    changes: list[dict[str, float]] | None
+    changes: Records | None
     """Disc: ``friction`` and ``frequency`` of each motion that is marginal at a friction of the load."""
     changes_up_to: float | None
     """Disc: the friction up to which ``changes`` are known; ``None`` where those of every size are."""
@@ -476,7 +454,7 @@ class Stability(_columns.StabilityColumns, Result):
         return numbers_of(self._named("eigenvalues"))
 
 
-class TrackedStability(_columns.TrackedStabilityColumns, Result):
+class TrackedStability(Result):
     """Eigenvalues of a system over a parameter, and its thresholds.
 
     The dataset has ``growth_rate`` and ``frequency`` over ``parameter`` and ``branch``; with a second parameter their names begin
@@ -488,20 +466,20 @@ class TrackedStability(_columns.TrackedStabilityColumns, Result):
     """Method: "linearised", or "averaged" under dither."""
     parameter: str
     """Path of the parameter."""
-    local: list[dict[str, Any]]
+    local: Records
     """``value`` with its ``error``, ``kind`` ("hopf", "divergence", "coalescence", "jump"), ``frequency``, and the verdicts below
     and above it, ``was`` and ``becomes``, which are equal where two frequencies merge without a change."""
-    thresholds: list[dict[str, Any]]
+    thresholds: Records
     """The same list."""
-    at_from: dict[str, Verdict | None]
+    at_from: FrozenDict[Verdict | None]
     """The verdict at the first value."""
     covered: bool
     """Whether every value of the range has an answer."""
     resumes: bool
     """Whether the last value has an answer again, after a range without one."""
-    rests: list[dict[str, Any]]
+    rests: Records
     """``value`` at which the surface of a ``contact`` comes to rest: friction reverses there, and there is no steady sliding."""
-    unknown: list[dict[str, Any]]
+    unknown: Records
     """``from`` and ``to`` of ranges without an answer, and ``why``."""
     from_: float
     """First value of the parameter."""
@@ -513,11 +491,27 @@ class TrackedStability(_columns.TrackedStabilityColumns, Result):
     """Path of the second parameter."""
     between: list[float]
     """First and last value of the second parameter."""
-    curves: list[dict[str, Any]]
+    curves: Records
     """``kind``, ``value`` (n,), ``along`` (n,), ``error`` (n,), ``frequency`` (n,), ``was`` and ``becomes`` of each curve."""
+    branch: npt.NDArray[np.float64]
+    """Number of each eigenvalue."""
+    growth_rate: npt.NDArray[np.float64]
+    """Growth rate over the parameter and the branch."""
+    frequency: npt.NDArray[np.float64]
+    """Angular frequency over the parameter and the branch."""
+    eigenvalues_growth_rate: npt.NDArray[np.float64]
+    """Growth rate, with a second parameter."""
+    eigenvalues_frequency: npt.NDArray[np.float64]
+    """Angular frequency, with a second parameter."""
+    point: npt.NDArray[np.float64]
+    """Number of each point (n,) of the curves."""
+    curve: npt.NDArray[np.float64]
+    """Curve of each point (n,)."""
+    kind: npt.NDArray[np.uint8]
+    """Code of the kind of threshold at each point (n,)."""
 
 
-class ExactStability(_columns.ExactStabilityColumns, Result):
+class ExactStability(Result):
     """Stability of the dithered motion of a system in pure slip, by its Floquet exponents."""
 
     verb = "stability"
@@ -537,7 +531,7 @@ class ExactStability(_columns.ExactStabilityColumns, Result):
     """State at time 0: displacements, velocities, further states."""
     residual: float
     """Distance of the state from itself after one period."""
-    exponents: list[dict[str, Any]]
+    exponents: Records
     """``growth_rate``, ``growth_rate_error``, ``frequency`` and ``multiplier`` of each exponent."""
 
     @property
@@ -546,14 +540,14 @@ class ExactStability(_columns.ExactStabilityColumns, Result):
         return numbers_of([it["multiplier"] for it in self.exponents])
 
 
-class Modes(_columns.ModesColumns, Result):
+class Modes(Result):
     """Natural frequencies and shapes of a disc or of a system."""
 
     verb = "modes"
-    modes: list[dict[str, Any]]
+    modes: Records
     """Disc: ``radial``, ``diameters``, ``frequency_parameter`` (k²), ``ratio``, ``frequency``, ``shape_at_load``, ``damping``, …
     System: ``frequency``, ``damping_ratio``, ``shape``, ``shape_imaginary``, with the springs of contacts and without friction."""
-    critical_mode: dict[str, int] | None
+    critical_mode: FrozenDict[int] | None
     """Disc: the mode with the lowest critical speed."""
     coordinates: list[str]
     """System: names of the coordinates of the shapes."""
@@ -563,21 +557,41 @@ class Modes(_columns.ModesColumns, Result):
     """Disc: ω_ref in rad/s."""
     plate_mass: float | None
     """Disc: mass of the plate, in kg."""
+    mode: npt.NDArray[np.float64]
+    """Number of each mode (n,)."""
+    frequency: npt.NDArray[np.float64]
+    """System: angular frequency (n,)."""
+    damping_ratio: npt.NDArray[np.float64]
+    """System: damping ratio (n,)."""
+    radial: npt.NDArray[np.float64]
+    """Disc: number of nodal circles (n,)."""
+    diameters: npt.NDArray[np.float64]
+    """Disc: number of nodal diameters (n,)."""
+    frequency_parameter: npt.NDArray[np.float64]
+    """Disc: k² (n,)."""
+    ratio: npt.NDArray[np.float64]
+    """Disc: frequency over ω_ref (n,)."""
+    frequency_hz: npt.NDArray[np.float64]
+    """Disc with units: frequency (n,) in Hz."""
+    shape_at_load: npt.NDArray[np.float64]
+    """Disc: shape at the first load (n,)."""
+    damping: npt.NDArray[np.float64]
+    """Disc: damping (n,)."""
 
 
-class Resonances(_columns.ResonancesColumns, Result):
+class Resonances(Result):
     """Meetings of the waves of a disc, or responses of the contacts of a system to its dithers."""
 
     verb = "resonances"
-    responses: list[dict[str, Any]]
+    responses: Records
     """System: ``dither``, ``contact`` and ``extremes`` of each pair: ``kind`` ("peak" or "dip"), ``frequency``,
     ``slip_per_amplitude``, ``out_of_reach``, ``reversal_amplitude``. The dataset has the slip over ``frequency``."""
-    undithered: list[dict[str, Any]]
+    undithered: Records
     """Disc: meetings without dither, with the keys of ``dithered``."""
-    dithered: list[dict[str, Any]]
+    dithered: Records
     """Disc: ``speed``, ``waves``, ``pair_can_be_unstable`` (at the order of the theory), ``threshold``, ``edges``, ``peak_growth`` of
     each meeting."""
-    growing: list[dict[str, Any]] | None
+    growing: Records | None
     """Disc: the speeds in which a motion grows by the exact equations at the study's friction: ``from``, ``to``, ``peak_speed``,
     ``peak_growth``, and ``explained_by``: "wave", "pair" (its ``pair`` and ``order``), or "none" where three waves or more grow
     together; ``None`` and ``why`` where the exponents are not known."""
@@ -587,7 +601,7 @@ class Resonances(_columns.ResonancesColumns, Result):
     """Disc: range of speeds in which meetings are listed, in ω_ref."""
     order: str
     """Disc: order of the theory in the friction."""
-    clear: dict[str, Any]
+    clear: FrozenDict[Any]
     """Disc: ``clear`` and ``blocked`` intervals of R for the ``speeds`` that should be kept clear, the best R (``suggestion``) with
     its ``verified_growth_rate``, the result of the exact equations for it (``verified``: ``verdict``, which is "stable" if nothing
     grows, "unstable" or "undecided", ``growth_rate``, ``growth_rate_error`` and its ``speed``; or ``None``, and ``why``), the frequencies that were
@@ -597,3 +611,21 @@ class Resonances(_columns.ResonancesColumns, Result):
     """System: least frequency."""
     to: float
     """System: largest frequency."""
+    frequency: npt.NDArray[np.float64]
+    """System: angular frequency (n,) of the dither."""
+    meeting: npt.NDArray[np.float64]
+    """Disc: number of each meeting (n,)."""
+    speed: npt.NDArray[np.float64]
+    """Disc: speed (n,) at which the waves meet."""
+    harmonic: npt.NDArray[np.float64]
+    """Disc: harmonic (n,) of the dither, 0 without dither."""
+    pair_can_be_unstable: npt.NDArray[np.float64]
+    """Disc: 1 where a pair of waves can be unstable (n,), at the order of the theory."""
+    threshold: npt.NDArray[np.float64]
+    """Disc: friction (n,) from which it is unstable."""
+    lower_edge: npt.NDArray[np.float64]
+    """Disc: lower end (n,) of the unstable speeds."""
+    upper_edge: npt.NDArray[np.float64]
+    """Disc: upper end (n,) of the unstable speeds."""
+    peak_growth: npt.NDArray[np.float64]
+    """Disc: largest growth rate (n,)."""
