@@ -168,7 +168,7 @@ fn a_coil_has_an_induced_voltage_and_a_controller_few_samples() {
         close(number(drive, "voltage.peak"), modulus([voltage[0], voltage[1]]), study);
         close(number(drive, "samples_per_period"), 20.0 / 3.0, study);
         let warnings = done["warnings"].to_string();
-        assert!(warnings.contains("6.66667 samples"), "{warnings}");
+        assert!(warnings.contains("6.667 samples"), "{warnings}");
     }
 }
 
@@ -191,7 +191,7 @@ fn what_the_actuator_cannot_give_is_named() {
     assert_eq!(done["feasible"], false);
     assert_eq!(done["drive"], Json::Null);
     let sentence = done["sentence"].as_str().expect("words");
-    assert!(sentence.contains("actuator.maximum_current would be"), "{sentence}");
+    assert!(sentence.contains("the maximum current of the actuator would be"), "{sentence}");
     // A square wave needs an unlimited current, which is not a large number but an answer that does not exist.
     let done = place.good(&["design", "belt.toml", "--set", "dither.waveform=square"]);
     assert_eq!(done["feasible"], false);

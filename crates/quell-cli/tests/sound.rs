@@ -57,7 +57,7 @@ fn a_squeal_is_saved_and_described() {
     let strongest = number("strongest_frequency_hz");
     assert!((strongest - expected).abs() < 0.4, "{strongest} {expected}");
     assert_eq!(samples.iter().map(|sample| sample.unsigned_abs()).max(), Some(23_197));
-    let sentence = object["sentence"].as_str().expect("a sentence");
+    let sentence = object["notes"][0].as_str().expect("a sentence");
     for part in [
         "transposition 1, lowest natural frequency at 110 Hz",
         "full scale is a velocity of",
@@ -66,7 +66,7 @@ fn a_squeal_is_saved_and_described() {
         assert!(sentence.contains(part), "{sentence}");
     }
     // The file itself has the sentence about the sound.
-    let said = &sentence[sentence.find("The sound").expect("two sentences")..];
+    let said = sentence;
     let bytes = fs::read(place.folder.join("run.wav")).expect("saved");
     assert!(bytes.windows(said.len()).any(|part| part == said.as_bytes()), "{said}");
 }
@@ -99,7 +99,7 @@ fn a_study_in_si_sounds_in_real_time() {
     let place = place("sound-si");
     let run = ["simulate", "pad.toml", "--until", "0.3s", "--events", "--save", "pad.WAV"];
     let object = place.good(&run);
-    let sentence = object["sentence"].as_str().expect("a sentence");
+    let sentence = object["notes"][0].as_str().expect("a sentence");
     assert!(sentence.contains("The sound lasts 0.3 s in real time (transposition 1"), "{sentence}");
     assert!(sentence.contains(" m/s (gain ") && sentence.contains(" s/m)"), "{sentence}");
     assert_eq!(place.files(), ["pad.WAV", "pad.toml", "quench.toml"]);

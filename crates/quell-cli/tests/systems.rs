@@ -237,8 +237,8 @@ fn every_study_of_a_system_can_be_simulated() {
                 .map(|key| contact[key].as_f64().expect("a fraction"));
             assert!((0.0..=1.0 + 1e-12).contains(&(sum[0] + sum[1])), "{study}: {contact}");
         }
-        let sentence = found["sentence"].as_str().expect("a sentence");
-        assert!(sentence.contains("100 periods of the slowest oscillation"), "{study}: {sentence}");
+        let note = found["notes"][0].as_str().expect("a sentence");
+        assert!(note.contains("100 periods of the slowest oscillation"), "{study}: {note}");
     }
     // The first events as another program finds them.
     let siconos = answer(&["simulate", "two-masses-siconos.toml", "--until", "10"]);

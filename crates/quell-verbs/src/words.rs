@@ -41,27 +41,44 @@ pub fn more_digits(value: f64) -> String {
 /// use quell_verbs::words::quantity_at;
 ///
 /// assert_eq!(quantity_at("dither.frequency_hz"), "dither frequency");
-/// assert_eq!(quantity_at("contact.pad.friction.static_coefficient"), "static coefficient of friction of contact pad");
+/// assert_eq!(
+///     quantity_at("contact.pad.friction.static_coefficient"),
+///     "static coefficient of friction of contact pad"
+/// );
 /// ```
 pub fn quantity_at(path: &str) -> String {
+    let (name, place) = name_and_place(path);
+    name + &place
+}
+
+/// A value of the number at a path in words: "dither amplitude 0.5", "belt velocity 0.5 m/s of contact guide".
+pub fn quantity_is(path: &str, value: &str) -> String {
+    let (name, place) = name_and_place(path);
+    format!("{name} {value}{place}")
+}
+
+/// The name of the number at a path, and what it belongs to.
+fn name_and_place(path: &str) -> (String, String) {
     let mut places: Vec<&str> = path.split('.').collect();
     let key = places.pop().unwrap_or_default();
     // Names that the study gives itself.
     if let Some(&("constants" | "parameters")) = places.last() {
-        return key.to_owned();
+        return (key.to_owned(), String::new());
     }
     let key = without_unit(key).replace('_', " ");
     match places.as_slice() {
-        [] | ["belt" | "system" | "disc"] => key,
-        ["dither"] => format!("dither {key}"),
-        ["contact", name] => format!("{key} of contact {name}"),
+        [] | ["belt" | "system" | "disc"] => (key, String::new()),
+        ["dither"] => (format!("dither {key}"), String::new()),
+        ["contact", name] => (key, format!(" of contact {name}")),
         ["contact", name, table] => {
-            format!("{key} of {} of contact {name}", table.replace('_', " "))
+            (key, format!(" of {} of contact {name}", table.replace('_', " ")))
         }
-        ["disc", place] => format!("{key} of the {}", place.replace('_', " ")),
-        ["actuator"] if key == "file" => "measured force of the actuator".to_owned(),
-        ["actuator"] => format!("{key} of the actuator"),
-        places => format!("{key} of {}", places.join(" ").replace('_', " ")),
+        ["disc", place] => (key, format!(" of the {}", place.replace('_', " "))),
+        ["actuator"] if key == "file" => {
+            ("measured force of the actuator".to_owned(), String::new())
+        }
+        ["actuator"] => (key, " of the actuator".to_owned()),
+        places => (key, format!(" of {}", places.join(" ").replace('_', " "))),
     }
 }
 

@@ -124,8 +124,8 @@ fn names_start_units_and_files() {
     let names: Vec<&str> = done.datasets().iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["trajectory", "events"]);
     assert!(done.sound().expect("a sound").is_ok() && done.figure().expect("a picture").is_ok());
-    let chosen = verbs(&any).simulate(&MotionRequest::default()).expect("a motion").json();
-    assert!(chosen["sentence"].as_str().is_some_and(|text| text.contains("--until sets another")));
+    let chosen = verbs(&any).simulate(&MotionRequest::default()).expect("a motion").notes();
+    assert!(chosen.iter().any(|text| text.contains("--until sets another")), "{chosen:?}");
 }
 
 /// What a disc does between two of its times: a growing motion is larger in a later window. It has no steady response.

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
-use quell::outcome::Outcome;
+use quell::outcome::{Outcome, named};
 use quell::record::RecordRequest;
 use quell::run::decay::{self, DecayRequest};
 use quell::run::record_fit::{self, RecordFitRequest};
@@ -19,7 +19,8 @@ use serde_json::Value as Json;
 /// The answer of `design`.
 fn facts(text: &str) -> Json {
     let study = Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    verbs(&study).design().unwrap_or_else(|why| panic!("{why}")).facts()
+    let found = verbs(&study).design().unwrap_or_else(|why| panic!("{why}"));
+    named(found.as_ref(), found.facts())
 }
 
 fn number(value: &Json) -> f64 {
@@ -156,9 +157,10 @@ fn a_dither_in_the_band_of_the_vibration_is_not_called_quiet() {
     let percent = 100.0 * residual;
     let percent =
         if percent < 100.0 { format!("{percent:.2} %") } else { format!("{percent:.0} %") };
-    assert!(first.contains(&format!("E of {percent}")), "{first}");
+    assert!(first.contains(&format!("residual vibration of {percent}")), "{first}");
     assert!(
-        first.contains(&format!("({level:.1} dB)")) && first.contains("a tone at 13"),
+        first.contains(&format!("({level:.1} dB)"))
+            && facts["notes"].to_string().contains("a tone at 13"),
         "{first}"
     );
     assert!((number(&facts["tone_frequency"]) / (13000.0 * TAU) - 1.0).abs() < 0.01, "{facts}");
@@ -190,7 +192,7 @@ fn a_slow_dither_for_a_part_of_the_box_says_what_it_leaves() {
         "{sentence}"
     );
     let residual = number(&facts["residual_vibration"]);
-    assert!(residual > 0.5 && sentence.contains("a residual vibration E of"), "{facts}");
+    assert!(residual > 0.5 && sentence.contains("a residual vibration of"), "{facts}");
     assert_eq!(
         (&facts["examined"]["below"], &facts["examined"]["above"]),
         (&"loud".into(), &"loud".into())

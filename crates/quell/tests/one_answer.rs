@@ -141,7 +141,7 @@ fn a_cycle_longer_than_the_record_is_warned_of() {
     let found = verbs(&study(&text)).response(&ResponseRequest::default());
     let found = found.expect("a response").facts();
     let warnings = found["warnings"].to_string();
-    assert!(warnings.contains("the vibration without dither repeats after 3971.95"), "{warnings}");
+    assert!(warnings.contains("the vibration without dither repeats after 3972"), "{warnings}");
 }
 
 /// A belt between the amplitude from which it is quiet (exact: D = 0.496562) and that of the limit of high frequency (0.4999).

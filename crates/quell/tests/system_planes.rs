@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
+use quell::outcome::named;
 use quell::run::basins::{BasinsRequest, StartLayout, default_plane};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::found_attractor::AttractorRequest;
@@ -66,7 +67,7 @@ fn curves(study: &Study, window: (f64, f64), along: &str, between: (f64, f64)) -
     let parameter = "dither.amplitude".to_owned();
     let request = CurvesRequest { parameter, window, along, between };
     let found = verbs(study).threshold_curves(&request).unwrap_or_else(|why| panic!("{why:?}"));
-    let json = found.json();
+    let json = named(found.as_ref(), found.json());
     println!("{}", json["sentence"]);
     json
 }
@@ -136,7 +137,7 @@ fn a_curve_ends_where_another_threshold_crosses_it() {
     let found = curves(&two, (1.0, 6.0), "contact.first.belt_velocity", (0.85, 1.2));
     assert_eq!(list(&found["curves"]).len(), 2);
     let crossed = "another threshold crosses it, and comes first beyond";
-    assert_eq!(found["sentence"].as_str().expect("words").matches(crossed).count(), 2);
+    assert_eq!(found["notes"].to_string().matches(crossed).count(), 2);
     for curve in list(&found["curves"]) {
         let (along, value) = (numbers(&curve["along"]), numbers(&curve["value"]));
         let ends: Vec<&str> = list(&curve["ends"]).iter().filter_map(Json::as_str).collect();

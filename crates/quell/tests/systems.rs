@@ -422,7 +422,7 @@ fn magnitudes_are_checked() {
             "0.1",
             "4 kN",
             "5.8 kN",
-            "times what the actuator can give, by actuator.blocked_force",
+            "times what the actuator can give, by the blocked force of the actuator",
         ),
     ] {
         for warnings in [belt(mu, speed, load, amplitude), system(mu, speed, load, amplitude)] {

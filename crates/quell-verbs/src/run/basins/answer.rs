@@ -11,7 +11,7 @@ use crate::run::system::attractor::{VERDICTS, in_words, put_attractor, verdict_c
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
-use crate::words::{capital, digits, plural, quantity_at};
+use crate::words::{capital, digits, plural, quantity_at, quantity_is};
 
 /// The verb for a start that ends without slow motion, singular and plural. Under a dither in the band of the vibration
 /// itself no response is quiet.
@@ -223,7 +223,7 @@ impl Basins {
         let unknown = self.portraits.iter().flat_map(|portrait| {
             let at = match (portrait.value, &self.over) {
                 (Some(value), Some(over)) => {
-                    format!(" at the {} {}", quantity_at(&over.parameter), self.value(study, value))
+                    format!(" at the {}", quantity_is(&over.parameter, &self.value(study, value)))
                 }
                 _ => String::new(),
             };

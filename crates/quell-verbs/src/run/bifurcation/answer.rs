@@ -15,7 +15,7 @@ use crate::run::system::attractor::{
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
-use crate::words::quantity_at;
+use crate::words::{quantity_at, quantity_is};
 
 /// The motion of a point in words.
 pub fn words(study: &SystemStudy, point: &SweepPoint) -> String {
@@ -99,11 +99,12 @@ impl Bifurcation {
         for branch in &self.branches {
             for point in &branch.points {
                 if let Err(why) = &point.end {
-                    let quantity = quantity_at(&self.range.parameter);
+                    let path = &self.range.parameter;
                     let value = self.value(study, point.value);
                     let way = branch.direction.name();
                     warnings.push(format!(
-                        "sweeping {way}, the motion at the {quantity} {value} is unknown: {why}"
+                        "sweeping {way}, the motion at the {} is unknown: {why}",
+                        quantity_is(path, &value)
                     ));
                 }
             }

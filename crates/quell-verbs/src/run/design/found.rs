@@ -10,7 +10,7 @@ use super::slow_response::LargestSlowResponse;
 use super::study_with_design::StudyWithDesign;
 use crate::run::waveforms::label;
 use crate::study::{BurstNumber, Confidence};
-use crate::words::{digits, quantity_at};
+use crate::words::{digits, quantity_is};
 
 /// Share of a limit up to which it is kept at the amplitude of samples: the choice of the other design variables ends within this.
 const KEPT: f64 = 1.002;
@@ -32,7 +32,7 @@ impl DesignNumber {
     /// A value, of the equations, in words: "dither frequency 13000 Hz".
     pub(super) fn in_words(&self, value: f64) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        format!("{} {}{unit}", quantity_at(&self.path), digits(value * self.per_unit))
+        quantity_is(&self.path, &format!("{}{unit}", digits(value * self.per_unit)))
     }
 }
 

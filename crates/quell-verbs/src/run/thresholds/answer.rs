@@ -18,7 +18,7 @@ use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::state_columns;
 use crate::run::system::{value_at, value_closely_at};
 use crate::study::SystemStudy;
-use crate::words::{plural, quantity_at};
+use crate::words::{plural, quantity_at, quantity_is};
 
 /// Word of the ending of a branch.
 fn ending_name(ending: BranchEnding) -> &'static str {
@@ -60,7 +60,7 @@ impl Thresholds {
 
     /// Warnings: those of the study, and values at which the outcome of a run is unknown.
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
-        let quantity = quantity_at(&self.request.parameter);
+        let path = &self.request.parameter;
         let unknown = self.runs.iter().filter_map(|(protocol, switches)| {
             let (value, why) = switches.unknown.first()?;
             let more = match switches.unknown.len() - 1 {
@@ -69,7 +69,8 @@ impl Thresholds {
             };
             let (start, value) = (protocol.words(study), self.value(study, *value));
             Some(format!(
-                "the outcome of the run {start} at the {quantity} {value} is unknown: {why}{more}"
+                "the outcome of the run {start} at the {} is unknown: {why}{more}",
+                quantity_is(path, &value)
             ))
         });
         let in_band = (self.in_band && !self.runs.is_empty()).then(|| {
@@ -83,15 +84,19 @@ impl Thresholds {
         let silent = (!self.silent.is_empty()).then(|| {
             let (least, most) = (self.value(study, least), self.value(study, most));
             format!(
-                "at values of the {quantity} between {least} and {most} no squeal was found without dither: the run from the undithered limit \
-                 cycle starts from steady sliding there"
+                "at values of the {} between {least} and {most} no squeal was found without dither: the run from the undithered limit \
+                 cycle starts from steady sliding there",
+                quantity_at(path)
             )
         });
         let beyond = beyond_laws(study, |contact| self.slip[contact]);
         let gaps = self.local.iter().flat_map(|local| &local.gaps).map(|gap| {
-            let closely = |value| value_closely_at(study, &self.request.parameter, value);
+            let closely = |value| value_closely_at(study, path, value);
             let ([low, high], grazing) = (gap.ends().map(closely), closely(gap.grazing));
-            format!("between the {quantity} {low} and {high}, next to the grazing at {grazing}, no response was found")
+            format!(
+                "between {low} and {high} of the {}, next to the grazing at {grazing}, no response was found",
+                quantity_at(path)
+            )
         });
         study
             .warnings()

@@ -20,7 +20,7 @@ use crate::run::system::start::state_columns;
 use crate::run::system::tracked::{TrackRequest, understood};
 use crate::run::system::{failed, has_equations, value_at};
 use crate::study::SystemStudy;
-use crate::words::{plural, quantity_at};
+use crate::words::{plural, quantity_at, quantity_is};
 
 /// Lines across the second parameter on which the search for curves starts.
 const LINES: u32 = 5;
@@ -243,7 +243,7 @@ pub(super) fn put_contacts(fields: &mut Fields, study: &SystemStudy, contacts: &
 fn line_in_words(study: &SystemStudy, request: &CurvesRequest, line: &OpenLine) -> String {
     let place = value_at(study, &request.along, line.along);
     let why = line.why.words(|value| value_at(study, &request.parameter, value));
-    format!("on the line of the {} {place}: {why}", quantity_at(&request.along))
+    format!("on the line of the {}: {why}", quantity_is(&request.along, &place))
 }
 
 impl Curves {
@@ -288,8 +288,8 @@ impl Curves {
                     let place = value_at(study, along, point.along);
                     let kind = self.kind(study, curve);
                     notes.push(format!(
-                        "The {kind} curve ends at the {} {place}: {why}.",
-                        quantity_at(along)
+                        "The {kind} curve ends at the {}: {why}.",
+                        quantity_is(along, &place)
                     ));
                 }
             }

@@ -31,7 +31,7 @@ use crate::effort::STEPS_OF_A_SEARCH;
 use crate::parallel::Parallel;
 use crate::quantity::bearable;
 use crate::study::SystemStudy;
-use crate::words::quantity_at;
+use crate::words::quantity_is;
 
 pub use answer::events_in_words;
 pub use window::{AMPLITUDE, window_of};
@@ -162,9 +162,9 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
         return Err(failed(
             "thresholds",
             format!(
-                "{why}, at the {} {from}: begin where a base response exists, give a state near another motion (--near), or \
+                "{why}, at the {}: begin where a base response exists, give a state near another motion (--near), or \
                  request runs (--from-rest, --from-squeal, …)",
-                quantity_at(path)
+                quantity_is(path, &from.to_string())
             ),
         ));
     }

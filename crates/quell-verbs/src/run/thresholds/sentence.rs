@@ -11,7 +11,7 @@ use super::curves::kind_in_words;
 use crate::run::criticality;
 use crate::run::system::in_units;
 use crate::study::SystemStudy;
-use crate::words::{capital, quantity_at};
+use crate::words::{capital, quantity_at, quantity_is};
 
 /// Half the width of an interval, relative to its value, up to which a change of a run is a single value in a sentence. Wider ones,
 /// where halving was stopped, are reported with their error.
@@ -90,7 +90,7 @@ impl NamedParameter<'_> {
     }
 
     fn value(&self, limit: &Limit) -> String {
-        format!("the {} {}", self.name(), self.number(limit))
+        format!("the {}", quantity_is(&self.done.request.parameter, &self.number(limit)))
     }
 
     fn at(&self, value: f64) -> String {

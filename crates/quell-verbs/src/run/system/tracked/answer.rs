@@ -12,7 +12,7 @@ use crate::fields::Fields;
 use crate::run::criticality;
 use crate::run::system::{oscillating, value_at};
 use crate::study::{SystemStudy, UnitSystem};
-use crate::words::{digits, plural, quantity_at};
+use crate::words::{digits, plural, quantity_at, quantity_is};
 
 impl TrackedStability {
     /// The protocol of the verdicts.
@@ -23,7 +23,6 @@ impl TrackedStability {
     /// The answer in one or two sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let TrackRequest { parameter, window: (from, to), .. } = &self.request;
-        let parameter = quantity_at(parameter);
         let changes: Vec<String> = self
             .tracked
             .thresholds
@@ -43,7 +42,11 @@ impl TrackedStability {
                 };
                 let at = self.value(study, found.value);
                 let clause = criticality::clause(first_lyapunov, " (", ")");
-                format!("{} at the {parameter} {at}, {how}{clause}", found.verdicts[1].name())
+                format!(
+                    "{} at the {}, {how}{clause}",
+                    found.verdicts[1].name(),
+                    quantity_is(parameter, &at)
+                )
             })
             .collect();
         let by = if self.averaged { "By averaging, steady" } else { "Steady" };
@@ -58,7 +61,11 @@ impl TrackedStability {
         let sentence = if changes.is_empty() {
             let known = self.verdicts().into_iter().map(|(verdict, from, to)| {
                 let to = self.value(study, to);
-                format!("{verdict} from the {parameter} {} to {to}", digits(from))
+                format!(
+                    "{verdict} for the {} from {} to {to}",
+                    quantity_at(parameter),
+                    digits(from)
+                )
             });
             let known = known.collect::<Vec<_>>().join(", ");
             let unknown = if self.tracked.unknown.is_empty() {
@@ -78,11 +85,12 @@ impl TrackedStability {
     pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
         let count = self.curves.len();
         let curves = format!("Found {count} curve{} of thresholds.", plural(count));
-        let parameter = quantity_at(&self.request.parameter);
+        let path = &self.request.parameter;
         let rests = self.rests.iter().map(|SurfaceAtRest { value, contact }| {
             let value = self.value(study, *value);
             format!(
-                "At the {parameter} {value} contact {contact} comes to rest: its surface reverses, and there is no steady sliding."
+                "At the {} contact {contact} comes to rest: its surface reverses, and there is no steady sliding.",
+                quantity_is(path, &value)
             )
         });
         (count > 0).then_some(curves).into_iter().chain(rests).collect()
@@ -184,13 +192,17 @@ impl TrackedStability {
     /// Warnings: those of the study, ranges without an answer, and approaches that were not examined.
     fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let unknown = self.tracked.unknown.iter().map(|range| {
-            let parameter = quantity_at(&self.request.parameter);
+            let path = &self.request.parameter;
             let to = self.value(study, range.to);
             if range.from == range.to {
-                format!("at the {parameter} {to} there is no answer: {}", range.why)
+                format!("at the {} there is no answer: {}", quantity_is(path, &to), range.why)
             } else {
                 let from = digits(range.from);
-                format!("from the {parameter} {from} to {to} there is no answer: {}", range.why)
+                format!(
+                    "for the {} from {from} to {to} there is no answer: {}",
+                    quantity_at(path),
+                    range.why
+                )
             }
         });
         let unexamined = Some(self.tracked.unexamined).filter(|count| *count > 0).map(|count| {
@@ -267,9 +279,9 @@ fn between(study: &SystemStudy, path: &str, (from, to): (f64, f64)) -> String {
     let unit = study.unit_of(path).filter(|unit| *unit != "1");
     let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
     if from == to {
-        return format!("at the {} {}{unit}", quantity_at(path), digits(from));
+        return format!("at the {}", quantity_is(path, &format!("{}{unit}", digits(from))));
     }
-    format!("from the {} {} to {}{unit}", quantity_at(path), digits(from), digits(to))
+    format!("for the {} from {} to {}{unit}", quantity_at(path), digits(from), digits(to))
 }
 
 /// One threshold; `unit` is that of the parameter.
