@@ -208,6 +208,7 @@ impl LeastDitherFound {
         let decides = decides
             .map(|worst| format!("The least dither is decided{}.", self.point_in_words(worst)));
         let binding = self.binding(&found.critical);
+        let binding: Vec<String> = binding.iter().map(|name| quantity_at(name)).collect();
         let binds = (!binding.is_empty()).then(|| format!("At the limit: {}.", listed(&binding)));
         let largest = digits(found.largest_multiplier());
         let notes = [
@@ -267,14 +268,14 @@ impl LeastDitherFound {
         let used = critical.used.iter();
         let limits = used.filter(|(_, used)| used.as_ref().is_ok_and(|used| *used >= BINDS));
         let mut binding: Vec<String> =
-            limits.map(|(quantity, _)| limit_in_words(*quantity)).collect();
+            limits.map(|(quantity, _)| quantity.name().to_owned()).collect();
         for (number, value) in self.others.iter().zip(&critical.others) {
             if *value == number.range.0 || *value == number.range.1 {
-                binding.push(quantity_at(&number.path));
+                binding.push(number.path.clone());
             }
         }
         if critical.worst.is_none() {
-            binding.push(quantity_at(&self.amplitude.path));
+            binding.push(self.amplitude.path.clone());
         }
         binding
     }
