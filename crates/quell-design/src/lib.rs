@@ -11,3 +11,6 @@ pub mod probability;
 pub mod quench;
 pub mod substitute;
 pub mod tasks;
+mod unknown;
+
+pub use unknown::{AveragingEnds, NoAnswer, NotOfDisc};
