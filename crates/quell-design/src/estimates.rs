@@ -12,6 +12,8 @@ use quell_numerics::matrix::Matrix;
 use quell_numerics::order::descending_by;
 use quell_numerics::symmetric_eigenvectors::{Eigenpair, symmetric_eigenpairs};
 
+use crate::{ExactFit, NoStandardError};
+
 /// Ratio of the least to the largest eigenvalue below which the inverse has no digit left.
 const SINGULAR: f64 = 1e-14;
 
@@ -26,10 +28,6 @@ const INVOLVED: f64 = 1e-4;
 
 /// Share of the variance of the data below which a model does not explain them.
 const EXPLAINS: f64 = 0.5;
-
-/// Why parameters have no standard errors where the model does not explain the data.
-pub const NOT_EXPLAINED: &str =
-    "the model does not explain the record: a standard error is that of a model that does";
 
 /// A combination of parameters that the data hardly determine.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +44,7 @@ pub struct Estimates {
     /// Values of all parameters.
     pub values: Vec<f64>,
     /// The standard errors, or the reason why one is missing.
-    pub errors: Vec<Result<f64, String>>,
+    pub errors: Vec<Result<f64, NoStandardError>>,
     /// Places of the parameters with standard errors, in the order of the covariance.
     pub order: Vec<usize>,
     /// The covariance, row by row.
@@ -85,13 +83,11 @@ impl Estimates {
             .iter()
             .map(|column| column.iter().map(|entry| entry * entry).sum::<f64>().sqrt())
             .collect();
-        let errors: Vec<Result<f64, String>> = (0..found.at.len())
+        let errors: Vec<Result<f64, NoStandardError>> = (0..found.at.len())
             .map(|place| match (&freedom[place], found.on_bound[place], norms[place]) {
-                (Freedom::Fixed, ..) => Err("the value is fixed".to_owned()),
-                (_, true, _) => Err("the least RSS is on a bound of the parameter".to_owned()),
-                (_, _, norm) if !(norm > 0.0 && norm.is_finite()) => {
-                    Err("the record does not depend on it".to_owned())
-                }
+                (Freedom::Fixed, ..) => Err(NoStandardError::Fixed),
+                (_, true, _) => Err(NoStandardError::OnBound),
+                (_, _, norm) if !(norm > 0.0 && norm.is_finite()) => Err(NoStandardError::NoEffect),
                 _ => Ok(0.0),
             })
             .collect();
@@ -120,7 +116,7 @@ impl Estimates {
             estimates.order.clear();
             estimates.covariance.clear();
             for error in estimates.errors.iter_mut().filter(|error| error.is_ok()) {
-                *error = Err(NOT_EXPLAINED.to_owned());
+                *error = Err(NoStandardError::NotExplained);
             }
         }
         estimates
@@ -161,7 +157,7 @@ impl Estimates {
             self.errors[*place] = if known(row) {
                 Ok(entry(row, row).max(0.0).sqrt())
             } else {
-                Err("the record determines it only together with other parameters".to_owned())
+                Err(NoStandardError::OnlyTogether)
             };
         }
     }
@@ -180,9 +176,9 @@ impl Estimates {
     ///
     /// # Errors
     /// The curve passes through every datum, so that the criterion has no lower bound.
-    pub fn aic(&self) -> Result<f64, String> {
+    pub fn aic(&self) -> Result<f64, ExactFit> {
         if self.rss <= 0.0 {
-            return Err("the curve passes through every sample".to_owned());
+            return Err(ExactFit::Samples);
         }
         let count = self.count as f64;
         let likelihood =
@@ -223,7 +219,7 @@ mod tests {
         let line = minimum(vec![vec![1.0; 9], x]);
         let found = Estimates::of(&line, &data, &[Freedom::Free, Freedom::Free]);
         assert!((found.explained.expect("they vary") - (1.0 - 7.0 / 540.0)).abs() < 1e-14);
-        let error = |place: usize| found.errors[place].clone().expect("determined");
+        let error = |place: usize| found.errors[place].expect("determined");
         assert!((error(1) - (1.0_f64 / 60.0).sqrt()).abs() < 1e-14);
         assert!((error(0) - (1.0 / 9.0 + 16.0 / 60.0_f64).sqrt()).abs() < 1e-13);
         assert!((found.covariance[0][1] + 4.0 / 60.0).abs() < 1e-14);
@@ -253,7 +249,7 @@ mod tests {
         // Σ(y − ȳ)² is 20/9, and the residuals are 7.
         assert!((found.explained.expect("they vary") - (1.0 - 63.0 / 20.0)).abs() < 1e-14);
         assert!(!found.explain() && found.order.is_empty() && found.covariance.is_empty());
-        assert_eq!(found.errors, vec![Err(NOT_EXPLAINED.to_owned()); 2]);
+        assert_eq!(found.errors, [Err(NoStandardError::NotExplained); 2]);
         assert_eq!(
             Estimates::of(&line, &[1.0; 9], &[Freedom::Free, Freedom::Free]).explained,
             None

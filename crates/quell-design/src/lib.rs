@@ -11,3 +11,8 @@ pub mod probability;
 pub mod quench;
 pub mod substitute;
 pub mod tasks;
+mod unestimated;
+mod unknown;
+
+pub use unestimated::{ExactFit, NoStandardError};
+pub use unknown::{AveragingEnds, NoAnswer, NotOfDisc};

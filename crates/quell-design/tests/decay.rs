@@ -86,7 +86,7 @@ fn standard_errors_have_their_coverage_over_seeds() {
         let data: Vec<f64> = exact.iter().map(|y| y + 0.02 * random.normal()).collect();
         let found = fitted(DecayLaw::ViscousCoulomb, &times, &data, RecordedQuantity::Displacement);
         for place in 0..DECAY_PARAMETERS {
-            let error = found.estimates.errors[place].clone().expect("determined");
+            let error = found.estimates.errors[place].expect("determined");
             let z = (found.estimates.values[place] - planted[place]) / error;
             squares[place] += z * z / RECORDS as f64;
             inside += usize::from(z.abs() < 1.0);
@@ -140,7 +140,7 @@ fn a_long_record_keeps_its_phase() {
     let exact = record(&planted, RecordedQuantity::Displacement, &times);
     let data: Vec<f64> = exact.iter().map(|y| y + 1e-4 * random.normal()).collect();
     let found = fitted(DecayLaw::Viscous, &times, &data, RecordedQuantity::Displacement);
-    let error = found.estimates.errors[0].clone().expect("determined");
+    let error = found.estimates.errors[0].expect("determined");
     assert!(((found.estimates.values[0] - planted[0]) / error).abs() < 4.0);
     assert!(error / planted[0] < 1e-5);
 }
@@ -156,7 +156,7 @@ fn rest_at_the_end_is_part_of_the_record() {
     let data: Vec<f64> = exact.iter().map(|y| y + 0.01 * random.normal()).collect();
     let found = fitted(DecayLaw::Coulomb, &times, &data, RecordedQuantity::Displacement);
     for place in [0, 2, 3, 4, 5] {
-        let error = found.estimates.errors[place].clone().expect("determined");
+        let error = found.estimates.errors[place].expect("determined");
         let z = (found.estimates.values[place] - planted[place]) / error;
         assert!(z.abs() < 4.0, "{place}: {z}");
     }

@@ -1,8 +1,8 @@
 //! Laws fitted to points: stored fits, planted laws, bounds, weights and what is reported as unknown.
 
+use quell_design::NoStandardError;
 use quell_design::fit::{
-    Certainty, Estimate, FitFinding, FitModel, FitPoint, LawFit, Unfitted, akaike_weights,
-    diagnose, fit,
+    Estimate, FitFinding, FitModel, FitPoint, LawFit, Unfitted, akaike_weights, diagnose, fit,
 };
 use quell_model::friction::LawKind;
 use serde_json::Value;
@@ -68,7 +68,7 @@ fn stored_fits_are_reproduced() {
             let stored = &case["parameters"][name];
             close(value(&found, name), &stored["value"]);
             let fitted = found.parameter(&format!("friction.{name}")).expect("it is there");
-            close(fitted.certainty.standard_error().expect("known"), &stored["standard_error"]);
+            close(fitted.standard_error.expect("known"), &stored["standard_error"]);
             for (j, other) in order.iter().enumerate() {
                 close(own.matrix[place(key)][place(other)], &case["covariance"]["matrix"][i][j]);
             }
@@ -171,7 +171,10 @@ fn bounds_are_respected() {
     let found = fit(&model(LawKind::Decreasing), &points).expect("solvable");
     let minimum = found.parameter("friction.minimum_coefficient").expect("it is there");
     assert_eq!(minimum.value, 0.0);
-    assert!(matches!(minimum.certainty, Certainty::OnBound(_)));
+    assert!(matches!(
+        minimum.standard_error,
+        Err(NoStandardError::OnZero | NoStandardError::OnBoundBy(_))
+    ));
     // With the limit fixed there, the fit is the same, with one parameter less.
     let fixed = model(LawKind::Decreasing).fixing("minimum_coefficient", 0.0).expect("in range");
     let fixed = fit(&fixed, &points).expect("solvable");
@@ -211,8 +214,10 @@ fn a_point_of_twice_the_weight_counts_twice() {
     let (plain, scaled) =
         (fit(&model, &points).expect("a fit"), fit(&model, &scaled).expect("a fit"));
     for (a, b) in plain.parameters.iter().zip(&scaled.parameters) {
-        let error = |own: &Certainty| own.standard_error().expect("known");
-        assert!((error(&a.certainty) / error(&b.certainty) - 1.0).abs() < 1e-9);
+        assert!(
+            (a.standard_error.expect("known") / b.standard_error.expect("known") - 1.0).abs()
+                < 1e-9
+        );
     }
     let difference = plain.aic().expect("finite") - scaled.aic().expect("finite");
     assert!(difference.abs() < 1e-9, "{difference}");
@@ -238,7 +243,7 @@ fn standard_errors_are_the_scatter_of_repeated_measurements() {
         let found = fit(&model, &points).expect("a fit");
         for (square, (fitted, truth)) in squares.iter_mut().zip(found.parameters.iter().zip(truth))
         {
-            let error = fitted.certainty.standard_error().expect("known");
+            let error = fitted.standard_error.expect("known");
             *square += ((fitted.value - truth) / error).powi(2);
         }
         let band = 2.026 * found.standard_deviation(0.3);
@@ -302,8 +307,11 @@ fn a_velocity_between_equal_levels_has_no_error() {
     let found = fit(&model(LawKind::StribeckExponential), &line).expect("a fit");
     assert!(found.is_exact(), "{found:?}");
     let reference = found.parameters.iter().find(|one| one.parameter.key() == "reference_velocity");
-    let certainty = &reference.expect("a reference velocity").certainty;
-    assert!(matches!(certainty, Certainty::Undetermined(_)), "{certainty:?}");
+    let error = reference.expect("a reference velocity").standard_error;
+    assert!(
+        matches!(error, Err(NoStandardError::AtLimit | NoStandardError::NoChange)),
+        "{error:?}"
+    );
     let findings = diagnose(&found, &line);
     assert!(findings.contains(&FitFinding::Exact), "{findings:?}");
 }

@@ -28,8 +28,8 @@ fn belt(kind: LawKind, damping_ratio: f64, waveform: Waveform) -> Box<SystemAtPo
         at.others.iter().try_fold(belt, |belt, ratio| belt.with_frequency_ratio(0, *ratio))
     };
     Box::new(move |point: OperatingPoint<'_>, amplitude: f64| {
-        let belt = at(point, amplitude).map_err(|why: InvalidValues| why.to_string())?;
-        Ok(belt.system())
+        let belt: Result<Belt, InvalidValues> = at(point, amplitude);
+        Ok(belt?.system())
     })
 }
 

@@ -4,12 +4,12 @@ use quell_design::least_dither::{LeastAmplitude, LeastAmplitudeSensitivity};
 use quell_dynamics::orbit::{OrbitVerdict, ThresholdKind, branch_thresholds};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
-use quell_model::{Belt, Direction, Dither, LawKind, System, Waveform};
+use quell_model::{Belt, Direction, Dither, LawKind, RefusedNumbers, System, Waveform};
 use quell_numerics::matrix::Matrix;
 
 /// A belt with ζ, F, v₀, the three coefficients of the law, and R as its numbers.
-fn belt(amplitude: f64, numbers: &[f64]) -> Result<System, String> {
-    let law = LawKind::Stribeck.build(&numbers[3..6]).map_err(|why| why.to_string())?;
+fn belt(amplitude: f64, numbers: &[f64]) -> Result<System, RefusedNumbers> {
+    let law = LawKind::Stribeck.build(&numbers[3..6])?;
     let dither = Dither {
         direction: Direction::Tangential,
         waveform: Waveform::Sine,
@@ -19,13 +19,13 @@ fn belt(amplitude: f64, numbers: &[f64]) -> Result<System, String> {
         envelope: None,
     };
     let belt = Belt::new(numbers[0], numbers[1], numbers[2], law, vec![dither]);
-    Ok(belt.map_err(|why| why.to_string())?.system())
+    Ok(belt?.system())
 }
 
 /// Two masses, friction at the second and dither on both, with numbers in the order of the uses below.
-fn two_masses(amplitude: f64, numbers: &[f64]) -> Result<System, String> {
+fn two_masses(amplitude: f64, numbers: &[f64]) -> Result<System, RefusedNumbers> {
     let [joint, damping, load, speed, frequency, share, ..] = numbers else {
-        return Err("numbers are missing".to_owned());
+        return Err(RefusedNumbers::by_study("numbers are missing"));
     };
     let stiffness = Matrix::from_fn(2, 2, |i, j| {
         if i == j { 1.0 + joint * f64::from(u8::from(i == 0)) } else { -joint }
@@ -42,7 +42,7 @@ fn two_masses(amplitude: f64, numbers: &[f64]) -> Result<System, String> {
         tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(*speed),
-        friction: LawKind::Decreasing.build(&numbers[6..9]).map_err(|why| why.to_string())?,
+        friction: LawKind::Decreasing.build(&numbers[6..9])?,
         varying_load: None,
     };
     let wave = Wave {
@@ -66,13 +66,13 @@ fn two_masses(amplitude: f64, numbers: &[f64]) -> Result<System, String> {
 
 /// The same with the dither on the mass that has no contact: its motion is much larger than that of the contact, and differences of
 /// the equations need steps that are small against the latter.
-fn driven_far_from_the_contact(amplitude: f64, numbers: &[f64]) -> Result<System, String> {
+fn driven_far_from_the_contact(amplitude: f64, numbers: &[f64]) -> Result<System, RefusedNumbers> {
     let mut system = two_masses(amplitude, numbers)?;
     system.inputs[0].target = InputTarget::Force(vec![numbers[5], 0.0]);
     Ok(system)
 }
 
-type SystemOf = fn(f64, &[f64]) -> Result<System, String>;
+type SystemOf = fn(f64, &[f64]) -> Result<System, RefusedNumbers>;
 
 /// The amplitude at which the base response becomes stable near another one.
 fn threshold(of: SystemOf, near: f64, numbers: &[f64]) -> (f64, ThresholdKind) {

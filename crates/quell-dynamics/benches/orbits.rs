@@ -26,18 +26,15 @@ fn belt(waveform: Waveform, amplitude: f64) -> Belt {
 }
 
 fn both_thresholds(belt: &Belt) -> usize {
-    let at = |values: &[f64]| {
-        let belt = belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
-        Ok(belt.system())
-    };
+    let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0])?.system());
     branch_thresholds(&at, (0.5, 10.5), 40, None).expect("followed").thresholds.len()
 }
 
 /// Both thresholds of the amplitude over the belt's velocity, and the number of points.
 fn both_curves(belt: &Belt) -> usize {
     let at = |values: &[f64]| {
-        let belt = belt.with_belt_velocity(values[1]).map_err(|why| why.to_string())?;
-        Ok(belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?.system())
+        let belt = belt.with_belt_velocity(values[1])?;
+        Ok(belt.with_amplitude(0, values[0])?.system())
     };
     let plane = ThresholdPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5), points: 100 };
     let found = threshold_curves(&plane, 3).expect("curves").curves;

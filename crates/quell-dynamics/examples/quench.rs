@@ -33,10 +33,7 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
     for change in critical_amplitudes(&belt, Averaging::Limit)? {
         writeln!(text, "averaging: {:?} from D = {:.4}", change.becomes, change.amplitude)?;
     }
-    let at = |values: &[f64]| {
-        let belt = belt.with_amplitude(0, values[0]).map_err(|wrong| wrong.to_string())?;
-        Ok(belt.system())
-    };
+    let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0])?.system());
     let found = branch_thresholds(&at, (0.4, 0.6), 64, None)?;
     for threshold in found.thresholds {
         writeln!(text, "exactly: {} at D = {:.7}", threshold.kind.name(), threshold.value)?;

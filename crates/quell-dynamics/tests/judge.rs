@@ -2,7 +2,8 @@
 //! agree.
 
 use quell_dynamics::attractor::{
-    AttractorKind, AttractorSettings, Patience, SettleOutcome, measure, outcome_of_run, settle,
+    AttractorKind, AttractorSettings, NoStart, Patience, SettleOutcome, measure, outcome_of_run,
+    settle,
 };
 use quell_dynamics::orbit::{
     FreeEnd, OrbitVerdict, ThresholdKind, base_response, cycles, free_end, keeps_vibrating,
@@ -137,7 +138,7 @@ fn squeal_ends_at_the_hopf_point() {
     // Beyond it nothing squeals, and a run from there starts from steady sliding.
     let at = |values: &[f64]| Ok(belt.with_belt_velocity(values[0]).expect("valid").system());
     let start = |_: f64, system: &System| {
-        squealing_state(system).or_else(|_| sliding_state(system).map_err(|why| why.to_string()))
+        squealing_state(system).or_else(|_| sliding_state(system).map_err(NoStart::NoSliding))
     };
     let changes = switches(&at, &start, (0.15, 0.25), 10).changes;
     assert_eq!((changes.len(), changes[0].becomes.is_quiet()), (1, Some(true)));

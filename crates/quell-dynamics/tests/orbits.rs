@@ -1,9 +1,11 @@
 //! Periodic responses against identities, differences and known thresholds.
 
-use quell_dynamics::attractor::{RunOutcome, RunSwitches, StartOfRun, VariedRun, values_tried};
+use quell_dynamics::attractor::{
+    NoOutcome, NoStart, RunOutcome, RunSwitches, StartOfRun, VariedRun, values_tried,
+};
 use quell_dynamics::orbit::{Orbit, OrbitVerdict, Threshold, ThresholdKind, base_response};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
-use quell_model::{Belt, Dither, LawKind, System, Waveform};
+use quell_model::{Belt, Dither, LawKind, RefusedNumbers, System, Waveform};
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{chapter_4, decreasing_under, dissertation, over_amplitudes};
 use quell_zoo::dither::{normal, tangential};
@@ -171,16 +173,17 @@ fn a_continuation_run_ends_at_the_end_of_its_window() {
 /// Where a start cannot be computed the end is unknown.
 #[test]
 fn a_start_that_cannot_be_computed_is_not_quenched() {
+    let no_start = || NoStart::OfStudy("no start".to_owned());
     let belt = decreasing_under(Waveform::Sine, 1.0);
     let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0]).expect("valid").system());
-    let found = switches(&at, &|_, _| Err("no start".to_owned()), (2.0, 3.0), 1);
+    let found = switches(&at, &|_, _| Err(no_start()), (2.0, 3.0), 1);
     assert_eq!((found.first.is_quiet(), found.changes.len()), (None, 0));
-    assert_eq!(found.unknown, [2.0, 3.0].map(|value| (value, "no start".to_owned())));
+    assert_eq!(found.unknown, [2.0, 3.0].map(|value| (value, NoOutcome::NoStart(no_start()))));
 }
 
 /// The changes of runs over a parameter, tried at equal steps.
 pub(crate) fn switches(
-    at: &(dyn Fn(&[f64]) -> Result<System, String> + Sync),
+    at: &(dyn Fn(&[f64]) -> Result<System, RefusedNumbers> + Sync),
     start: &StartOfRun<'_>,
     window: (f64, f64),
     steps: u32,

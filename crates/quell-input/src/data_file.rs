@@ -5,12 +5,14 @@
 //! A study may come from an untrusted source and may name any file: error messages show nothing of a file unless the
 //! required columns were found in it, and then only the invalid cell, truncated.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Fault, Origin};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::input::read_regular;
+use crate::wrong_file::{UnreadFile, WrongTable};
 
 /// The largest file that is read, in MiB.
 pub const LARGEST: u64 = 16;
@@ -34,7 +36,7 @@ const SEPARATORS: &[(char, &str)] = &[(';', "semicolons"), ('\t', "tabs")];
 ///
 /// # Errors
 /// Why it cannot be read.
-pub fn text(path: &Path, what: &str) -> Result<String, String> {
+pub fn text(path: &Path, what: &'static str) -> Result<String, UnreadFile> {
     text_up_to(path, what, LARGEST)
 }
 
@@ -42,14 +44,17 @@ pub fn text(path: &Path, what: &str) -> Result<String, String> {
 ///
 /// # Errors
 /// Why it cannot be read.
-pub fn text_up_to(path: &Path, what: &str, most: u64) -> Result<String, String> {
-    let bytes = read_regular(path, most << 20)
-        .map_err(|error| format!("{what} of at most {most} MiB; it cannot be read: {error}"))?;
+pub fn text_up_to(path: &Path, what: &'static str, most: u64) -> Result<String, UnreadFile> {
+    let bytes = read_regular(path, most << 20).map_err(|error| UnreadFile::Unreadable {
+        what,
+        most,
+        why: error.to_string(),
+    })?;
     let known = FORMATS.iter().find(|(begin, _)| bytes.starts_with(begin));
     if let Some((_, how)) = known {
-        return Err(format!("{what}; {how}"));
+        return Err(UnreadFile::OtherProgram { what, how });
     }
-    String::from_utf8(bytes).map_err(|_| format!("{what}; this file is not text"))
+    String::from_utf8(bytes).map_err(|_| UnreadFile::NotText { what })
 }
 
 /// The 64-bit FNV-1a checksum of bytes.
@@ -64,21 +69,14 @@ pub fn checksum(bytes: &[u8]) -> u64 {
 ///
 /// # Errors
 /// The places of columns that have. Names are not shown: the file may be any.
-pub fn distinct(names: &[&str]) -> Result<(), String> {
+pub fn distinct(names: &[&str]) -> Result<(), WrongTable> {
     if let Some(place) = names.iter().position(|name| name.contains(char::is_control)) {
-        return Err(format!(
-            "a CSV file with columns whose names have no control characters; that of column {} has",
-            place + 1
-        ));
+        return Err(WrongTable::ControlCharacters(place + 1));
     }
     let named = names.iter().enumerate().filter(|(_, name)| !name.is_empty());
     for (place, name) in named {
         if let Some(before) = names[..place].iter().position(|known| known == name) {
-            return Err(format!(
-                "a CSV file with columns of different names; columns {} and {} have the same",
-                before + 1,
-                place + 1
-            ));
+            return Err(WrongTable::SameName([before + 1, place + 1]));
         }
     }
     Ok(())
@@ -88,14 +86,11 @@ pub fn distinct(names: &[&str]) -> Result<(), String> {
 ///
 /// # Errors
 /// The line, and the numbers of cells and columns.
-pub fn within(cells: &[&str], columns: usize, line: usize) -> Result<(), String> {
+pub fn within(cells: &[&str], columns: usize, line: usize) -> Result<(), WrongTable> {
     if cells.iter().skip(columns).all(|cell| cell.trim().is_empty()) {
         return Ok(());
     }
-    let count = cells.len();
-    Err(format!(
-        "line {line}: {count} cells for {columns} columns; numbers have a decimal point, not a comma"
-    ))
+    Err(WrongTable::TooManyCells { line, cells: cells.len(), columns })
 }
 
 /// A CSV file whose columns are known.
@@ -116,9 +111,25 @@ pub struct Row<'t> {
 }
 
 /// The complaint about a data file that an argument names.
-pub(crate) fn complaint(path: &Path, why: String) -> Complaint {
+pub(crate) fn complaint(path: &Path, why: impl Display) -> Complaint {
     let given = Json::from(path.display().to_string());
-    Complaint::new(Fault::Path, "data file", Origin::Whole, given, why)
+    Complaint::new(Fault::Path, "data file", Origin::Whole, given, why.to_string())
+}
+
+/// The most invalid cells that are reported.
+const REPORTED: usize = 20;
+
+/// Fails with the first complaints about invalid cells.
+pub(crate) fn reported<W: Display>(path: &Path, found: &[W]) -> Result<(), Failure> {
+    if found.is_empty() {
+        return Ok(());
+    }
+    let mut complaints: Vec<Complaint> =
+        found.iter().take(REPORTED).map(|why| complaint(path, why)).collect();
+    if let Some(further) = found.len().checked_sub(REPORTED).filter(|further| *further > 0) {
+        complaints.push(complaint(path, format_args!("{further} further cells are invalid")));
+    }
+    Err(complaints.into())
 }
 
 impl<'t> DataFile<'t> {
@@ -133,21 +144,18 @@ impl<'t> DataFile<'t> {
     ///
     /// # Errors
     /// If there is no header line, or if it has one name twice.
-    pub fn new(text: &'t str, what: &str) -> Result<Self, String> {
+    pub fn new(text: &'t str, what: &'static str) -> Result<Self, WrongTable> {
         let mut lines = text
             .lines()
             .enumerate()
             .map(|(index, line)| (index + 1, line.trim().trim_start_matches('\u{feff}')))
             .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-        let (_, header) =
-            lines.next().ok_or_else(|| format!("{what} with a header line of column names"))?;
+        let (_, header) = lines.next().ok_or(WrongTable::NoHeader { what })?;
         let names: Vec<&str> =
             header.split(',').map(|name| name.trim().trim_matches('"')).collect();
         let other = SEPARATORS.iter().find(|(mark, _)| names.len() == 1 && header.contains(*mark));
         if let Some((_, separators)) = other {
-            return Err(format!(
-                "{what} with commas between its columns; this file has {separators}, and its numbers need a decimal point"
-            ));
+            return Err(WrongTable::Separators { what, separators });
         }
         distinct(&names)?;
         let columns = names.len();
@@ -164,6 +172,27 @@ impl<'t> DataFile<'t> {
     /// Index of a column.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| *known == name)
+    }
+
+    /// Index of a column that must be there.
+    ///
+    /// # Errors
+    /// It is not.
+    pub fn needed(&self, name: &'static str) -> Result<usize, WrongTable> {
+        self.column(name).ok_or(WrongTable::Lacks(name))
+    }
+
+    /// Index of the column of frequencies, `frequency` or `frequency_hz`, and whether it is in hertz.
+    ///
+    /// # Errors
+    /// The file has neither column, or both.
+    pub fn frequency(&self) -> Result<(usize, bool), WrongTable> {
+        match (self.column("frequency"), self.column("frequency_hz")) {
+            (Some(_), Some(_)) => Err(WrongTable::BothFrequencies),
+            (Some(at), None) => Ok((at, false)),
+            (None, Some(at)) => Ok((at, true)),
+            (None, None) => Err(WrongTable::NoFrequency),
+        }
     }
 
     /// Names of the columns.
@@ -203,13 +232,18 @@ impl Row<'_> {
         name: &str,
         allowed: &str,
         right: impl Fn(f64) -> bool,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, WrongTable> {
         within(&self.cells, self.columns, self.line)?;
         let cell = self.cells.get(at).copied().unwrap_or_default();
         cell.parse().ok().filter(|&value| right(value)).ok_or_else(|| {
             let short: String = cell.chars().take(SHOWN).collect();
             let rest = if short.len() < cell.len() { "…" } else { "" };
-            format!("line {}, {name}: {short:?}{rest} must be {allowed}", self.line)
+            WrongTable::Cell {
+                line: self.line,
+                column: name.to_owned(),
+                cell: format!("{short:?}{rest}"),
+                allowed: allowed.to_owned(),
+            }
         })
     }
 
@@ -224,16 +258,19 @@ impl Row<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::convert::Infallible;
+
     use super::*;
+    use crate::wrong_file::WrongFile;
 
     #[test]
     fn files_of_other_programs_are_named() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("data");
-        let why = |bytes: &[u8]| {
+        let why = |bytes: &[u8]| -> Result<(), WrongFile<Infallible>> {
             std::fs::write(&path, bytes).expect("written");
             let text = text(&path, "a CSV file of numbers")?;
-            DataFile::new(&text, "a CSV file of numbers").map(|_| ())
+            Ok(DataFile::new(&text, "a CSV file of numbers").map(|_| ())?)
         };
         for (bytes, wanted) in [
             (&b"velocity;coefficient\n0,1;0,4\n"[..], "this file has semicolons"),
@@ -242,7 +279,7 @@ mod tests {
             (b"\x93NUMPY\x01\x00", "np.savetxt"),
             (b"\xff\xfe\x00", "is not text"),
         ] {
-            let why = why(bytes).expect_err(wanted);
+            let why = why(bytes).expect_err(wanted).to_string();
             assert!(why.starts_with("a CSV file of numbers") && why.contains(wanted), "{why}");
         }
         assert_eq!(why(b"velocity,coefficient\n0.1,0.4\n"), Ok(()));

@@ -10,6 +10,8 @@ use quell_model::parameter::disc::{
 
 use crate::data_file::{DataFile, Row};
 use crate::files::WantedFile;
+use crate::modes_file::WrongModes;
+use crate::wrong_file::{WrongFile, WrongTable};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of modes";
@@ -38,16 +40,14 @@ pub struct ModeLine {
 ///
 /// # Errors
 /// What is wrong, with its line.
-pub fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
+pub fn parse(text: &str) -> Result<Vec<ModeLine>, WrongFile<WrongModes>> {
     let file = DataFile::new(text, WHAT)?;
     let column = |parameter: Parameter| file.column(parameter.key());
-    let needed = |parameter: Parameter| {
-        column(parameter).ok_or_else(|| format!("a CSV file with a column {}", parameter.key()))
-    };
+    let needed = |parameter: Parameter| file.needed(parameter.key());
     let (diameters, shape) = (needed(MODE_DIAMETERS)?, needed(MODE_SHAPE_AT_LOAD)?);
     let (ratio, hertz) = (column(MODE_RATIO), column(MODE_FREQUENCY));
     if ratio.is_none() && hertz.is_none() {
-        return Err("a CSV file with a column ratio or frequency_hz".to_owned());
+        return Err(WrongModes::NoRatio.into());
     }
     let (damping, centrifugal) = (column(MODE_DAMPING), column(MODE_CENTRIFUGAL));
     let line = |row: &Row<'_>| {
@@ -72,9 +72,9 @@ pub fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
             centrifugal: centrifugal.map(|at| value(at, MODE_CENTRIFUGAL)).transpose()?,
         })
     };
-    let lines: Vec<ModeLine> = file.rows().iter().map(line).collect::<Result<_, String>>()?;
+    let lines: Vec<ModeLine> = file.rows().iter().map(line).collect::<Result<_, WrongTable>>()?;
     if lines.is_empty() {
-        return Err("a CSV file with at least one mode".to_owned());
+        return Err(WrongModes::Empty.into());
     }
     Ok(lines)
 }

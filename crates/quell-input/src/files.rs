@@ -7,6 +7,7 @@ use std::path::{self, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::data_file;
+use crate::wrong_file::UnreadFile;
 
 /// The files of a study, and the folder in which they are.
 #[derive(Clone, Default)]
@@ -85,7 +86,12 @@ impl Files {
     ///
     /// # Errors
     /// Why it cannot be read.
-    pub fn text(&mut self, key: &str, name: &str, wanted: WantedFile) -> Result<Arc<str>, String> {
+    pub fn text(
+        &mut self,
+        key: &str,
+        name: &str,
+        wanted: WantedFile,
+    ) -> Result<Arc<str>, UnreadFile> {
         let place = self.place(key, name, wanted)?;
         Ok(Arc::clone(&self.held[place].text))
     }
@@ -94,13 +100,13 @@ impl Files {
     ///
     /// # Errors
     /// Why it cannot be read, or the line that is wrong.
-    pub fn parsed<C: Send + Sync + 'static>(
+    pub fn parsed<C: Send + Sync + 'static, E: From<UnreadFile>>(
         &mut self,
         key: &str,
         name: &str,
         wanted: WantedFile,
-        parse: impl FnOnce(&str) -> Result<C, String>,
-    ) -> Result<Arc<C>, String> {
+        parse: impl FnOnce(&str) -> Result<C, E>,
+    ) -> Result<Arc<C>, E> {
         let place = self.place(key, name, wanted)?;
         let file = &mut self.held[place];
         let known = file.parsed.iter().find_map(|known| Arc::clone(known).downcast().ok());
@@ -113,7 +119,7 @@ impl Files {
     }
 
     /// The place of a file, which is read if it is not held yet.
-    fn place(&mut self, key: &str, name: &str, wanted: WantedFile) -> Result<usize, String> {
+    fn place(&mut self, key: &str, name: &str, wanted: WantedFile) -> Result<usize, UnreadFile> {
         let path = self.path(name);
         let known = self.held.iter().position(|file| file.path == path);
         let place = if let Some(place) = known {

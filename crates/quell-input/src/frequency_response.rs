@@ -5,12 +5,14 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
+use std::fmt;
 
 use quell_model::parameter::Bounds;
 use quell_numerics::order::ascending_by;
 
 use crate::data_file::{DataFile, Row};
 use crate::files::WantedFile;
+use crate::wrong_file::WrongFile;
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of a frequency response";
@@ -20,6 +22,73 @@ pub const WANTED: WantedFile = WantedFile::of(WHAT);
 
 /// The largest number of names.
 const MOST_NAMES: usize = 200;
+
+/// What is wrong with a measured frequency response.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WrongResponse {
+    /// The name of an output or input is missing.
+    NoName {
+        /// The line, from 1.
+        line: usize,
+        /// The column.
+        column: &'static str,
+    },
+    /// There are too many different names.
+    TooManyNames,
+    /// A pair has two lines at one frequency.
+    RepeatedFrequency {
+        /// Output and input.
+        of: [String; 2],
+    },
+    /// A pair has no static value.
+    NoStaticValue {
+        /// Output and input.
+        of: [String; 2],
+    },
+    /// A pair has other frequencies than the first one.
+    OtherFrequencies {
+        /// Output and input.
+        of: [String; 2],
+    },
+    /// No frequency is above 0.
+    OnlyStatic,
+}
+
+impl fmt::Display for WrongResponse {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoName { line, column } => {
+                write!(f, "line {line}, {column}: a name is missing")
+            }
+            Self::TooManyNames => {
+                write!(f, "a CSV file of at most {MOST_NAMES} different names")
+            }
+            Self::RepeatedFrequency { of: [output, input] } => write!(
+                f,
+                "a CSV file with one line for each frequency; {output} over {input} has two at one"
+            ),
+            Self::NoStaticValue { of: [output, input] } => write!(
+                f,
+                "a CSV file with a static value, a line with frequency 0, for every pair; {output} over {input} has none"
+            ),
+            Self::OtherFrequencies { of: [output, input] } => write!(
+                f,
+                "a CSV file with the same frequencies for every pair; {output} over {input} has others"
+            ),
+            Self::OnlyStatic => {
+                f.write_str("a CSV file with a static value and at least one frequency above 0")
+            }
+        }
+    }
+}
+
+impl std::error::Error for WrongResponse {}
+
+impl From<WrongResponse> for WrongFile<WrongResponse> {
+    fn from(why: WrongResponse) -> Self {
+        Self::Contents(why)
+    }
+}
 
 /// A measured receptance.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,18 +121,10 @@ type ResponseSeries = BTreeMap<(usize, usize), Vec<(f64, [f64; 2])>>;
 ///
 /// # Errors
 /// What is wrong, with its line.
-pub fn parse(text: &str) -> Result<FrequencyResponse, String> {
+pub fn parse(text: &str) -> Result<FrequencyResponse, WrongFile<WrongResponse>> {
     let file = DataFile::new(text, WHAT)?;
-    let (frequency, in_hertz) = match (file.column("frequency"), file.column("frequency_hz")) {
-        (Some(_), Some(_)) => {
-            return Err("a CSV file with either the column frequency, angular, or frequency_hz; this one has both".into());
-        }
-        (Some(at), None) => (at, false),
-        (None, Some(at)) => (at, true),
-        (None, None) => return Err("a CSV file with a column frequency or frequency_hz".into()),
-    };
-    let [output, input, re, im] = ["output", "input", "re", "im"]
-        .map(|name| file.column(name).ok_or_else(|| format!("a CSV file with a column {name}")));
+    let (frequency, in_hertz) = file.frequency()?;
+    let [output, input, re, im] = ["output", "input", "re", "im"].map(|name| file.needed(name));
     let (output, input, re, im) = (output?, input?, re?, im?);
     let mut names: Vec<String> = Vec::new();
     let mut series = ResponseSeries::new();
@@ -78,20 +139,25 @@ pub fn parse(text: &str) -> Result<FrequencyResponse, String> {
         let value = [number(re, "re", Bounds::FINITE)?, number(im, "im", Bounds::FINITE)?];
         series.entry((output, input)).or_default().push((frequency, value));
     }
-    ordered(names, series, in_hertz)
+    Ok(ordered(names, series, in_hertz)?)
 }
 
 /// The place of a name among the names.
-fn place(names: &mut Vec<String>, row: &Row<'_>, at: usize, column: &str) -> Result<usize, String> {
+fn place(
+    names: &mut Vec<String>,
+    row: &Row<'_>,
+    at: usize,
+    column: &'static str,
+) -> Result<usize, WrongResponse> {
     let name = row.text(at);
     if name.is_empty() {
-        return Err(format!("{}, {column}: a name is missing", row.place()));
+        return Err(WrongResponse::NoName { line: row.line(), column });
     }
     if let Some(found) = names.iter().position(|known| known == name) {
         return Ok(found);
     }
     if names.len() == MOST_NAMES {
-        return Err(format!("a CSV file of at most {MOST_NAMES} different names"));
+        return Err(WrongResponse::TooManyNames);
     }
     names.push(name.to_owned());
     Ok(names.len() - 1)
@@ -102,34 +168,28 @@ fn ordered(
     names: Vec<String>,
     series: ResponseSeries,
     in_hertz: bool,
-) -> Result<FrequencyResponse, String> {
+) -> Result<FrequencyResponse, WrongResponse> {
     let mut found = FrequencyResponse { names, in_hertz, ..FrequencyResponse::default() };
     for (pair, mut values) in series {
         ascending_by(&mut values, |a| a.0);
-        let of = format!("{} over {}", found.names[pair.0], found.names[pair.1]);
+        let of = [pair.0, pair.1].map(|place| found.names[place].clone());
         let (frequencies, values): (Vec<f64>, Vec<[f64; 2]>) = values.into_iter().unzip();
         if frequencies.windows(2).any(|two| two[0] == two[1]) {
-            return Err(format!(
-                "a CSV file with one line for each frequency; {of} has two at one"
-            ));
+            return Err(WrongResponse::RepeatedFrequency { of });
         }
         if frequencies.first() != Some(&0.0) {
-            return Err(format!(
-                "a CSV file with a static value, a line with frequency 0, for every pair; {of} has none"
-            ));
+            return Err(WrongResponse::NoStaticValue { of });
         }
         if found.frequencies.is_empty() {
             found.frequencies = frequencies;
         } else if found.frequencies != frequencies {
-            return Err(format!(
-                "a CSV file with the same frequencies for every pair; {of} has others"
-            ));
+            return Err(WrongResponse::OtherFrequencies { of });
         }
         found.pairs.push(pair);
         found.data.push(values);
     }
     if found.frequencies.len() < 2 {
-        return Err("a CSV file with a static value and at least one frequency above 0".into());
+        return Err(WrongResponse::OnlyStatic);
     }
     Ok(found)
 }
@@ -155,10 +215,10 @@ mod tests {
             ("0,a,a,nan,0\n", "line 2, re"),
             ("0,,a,1,0\n", "line 2, output"),
         ] {
-            let wrong = parse(&format!("{head}{rows}")).expect_err(rows);
+            let wrong = parse(&format!("{head}{rows}")).expect_err(rows).to_string();
             assert!(wrong.contains(part), "{rows}: {wrong}");
         }
         let both = "frequency,frequency_hz,output,input,re,im\n";
-        assert!(parse(both).expect_err("two units").contains("both"));
+        assert!(parse(both).expect_err("two units").to_string().contains("both"));
     }
 }

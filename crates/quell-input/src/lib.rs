@@ -8,6 +8,7 @@
 //! | [`study_file`], [`document`] | the text of a study, and its TOML with the line of every value |
 //! | [`files`] | the files that a study names, each read once and held |
 //! | [`data_file`] | CSV files: columns by name, wrong cells by line |
+//! | [`wrong_file`] | what is wrong with a file of data |
 //! | [`wave_file`], [`sample_file`], [`actuator_file`] | samples of a wave, of a friction law, an actuator's frequency response |
 //! | [`modes_file`], [`frequency_response`], [`matrix_market`], [`disc_modes_file`] | modes, receptances and matrices of a structure; modes of a disc |
 //! | [`measurement`], [`record`] | measured friction, time series and spectra |
@@ -30,3 +31,4 @@ pub mod record;
 pub mod sample_file;
 pub mod study_file;
 pub mod wave_file;
+pub mod wrong_file;

@@ -8,6 +8,7 @@
 //! Source: R. F. Boisvert, R. Pozo and K. A. Remington, The Matrix Market exchange formats: initial design, NISTIR 5935, 1996
 //! (`boisvert1996`).
 
+use std::fmt;
 use std::str::SplitWhitespace;
 
 use quell_numerics::matrix::Matrix;
@@ -18,6 +19,143 @@ const BANNER: &str = "%%matrixmarket";
 /// What the first line must be.
 const HEADER: &str = "a Matrix Market file, whose first line is \"%%MatrixMarket matrix coordinate real general\" or has array, \
                       integer, symmetric or skew-symmetric in these places";
+
+/// What is wrong with a Matrix Market file. Lines, rows and columns count from 1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WrongMatrix {
+    /// The first line is another, or has another word.
+    Header(Option<String>),
+    /// The numbers are of another kind.
+    Field(String),
+    /// No line has the sizes.
+    NoSizes,
+    /// The sizes are not whole numbers.
+    Sizes {
+        /// The line.
+        line: usize,
+        /// Whether the matrix is dense.
+        is_dense: bool,
+    },
+    /// The matrix has another size.
+    OtherSize {
+        /// The wanted number of rows and columns.
+        n: usize,
+        /// The line.
+        line: usize,
+        /// Number of rows.
+        rows: usize,
+        /// Number of columns.
+        columns: usize,
+    },
+    /// It has more entries than places.
+    TooManyEntries {
+        /// The largest number.
+        most: usize,
+        /// The line.
+        line: usize,
+        /// The number of entries.
+        entries: usize,
+    },
+    /// It has fewer entries than it says.
+    TooFewEntries {
+        /// The number of entries.
+        entries: usize,
+        /// The number of lines with them.
+        count: usize,
+    },
+    /// A dense matrix ends before this entry.
+    EndsBefore {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+    },
+    /// The row or column of an entry is not in the matrix.
+    Index {
+        /// The line.
+        line: usize,
+        /// Row or column.
+        what: &'static str,
+        /// The largest one.
+        n: usize,
+    },
+    /// An entry of a skew-symmetric matrix is on its diagonal.
+    OnDiagonal {
+        /// The line.
+        line: usize,
+    },
+    /// An entry is repeated.
+    Repeated {
+        /// The line.
+        line: usize,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+    },
+    /// An entry is not a finite number.
+    NotFinite {
+        /// The line.
+        line: usize,
+    },
+    /// Something follows the number of an entry.
+    AfterNumber {
+        /// The line.
+        line: usize,
+    },
+    /// Something follows the entries.
+    AfterEntries {
+        /// The line.
+        line: usize,
+    },
+}
+
+impl fmt::Display for WrongMatrix {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Header(None) => f.write_str(HEADER),
+            Self::Header(Some(word)) => write!(f, "{HEADER}; it says {word:?}"),
+            Self::Field(field) => {
+                write!(f, "a matrix of real or integer numbers; line 1 says {field:?}")
+            }
+            Self::NoSizes => f.write_str("a Matrix Market file with a line of sizes"),
+            Self::Sizes { line, is_dense } => {
+                let entries = if *is_dense { "" } else { ", and of entries" };
+                write!(f, "line {line}: the numbers of rows and columns{entries}")
+            }
+            Self::OtherSize { n, line, rows, columns } => write!(
+                f,
+                "a matrix of {n} rows and {n} columns, one for each name; line {line} says {rows} and {columns}"
+            ),
+            Self::TooManyEntries { most, line, entries } => {
+                write!(f, "at most {most} entries; line {line} says {entries}")
+            }
+            Self::TooFewEntries { entries, count } => {
+                write!(f, "{entries} entries; the file has {count}")
+            }
+            Self::EndsBefore { row, column } => {
+                write!(f, "a file that does not end before entry ({row}, {column})")
+            }
+            Self::Index { line, what, n } => {
+                write!(f, "line {line}: the {what} of an entry, a whole number from 1 to {n}")
+            }
+            Self::OnDiagonal { line } => write!(
+                f,
+                "line {line}: an entry off the diagonal: a skew-symmetric matrix has zeros on it"
+            ),
+            Self::Repeated { line, row, column } => {
+                write!(f, "line {line}: each entry once; ({row}, {column}) is repeated")
+            }
+            Self::NotFinite { line } => write!(f, "line {line}: a finite number"),
+            Self::AfterNumber { line } => write!(f, "line {line}: nothing after the number"),
+            Self::AfterEntries { line } => {
+                write!(f, "a file that ends after its entries; line {line} follows")
+            }
+        }
+    }
+}
+
+impl std::error::Error for WrongMatrix {}
 
 /// Which entries a file has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,56 +184,51 @@ impl<'t> MarketLines<'t> {
 ///
 /// # Errors
 /// What the file must be, with the line that is wrong.
-pub fn parse(text: &str, n: usize) -> Result<Matrix, String> {
+pub fn parse(text: &str, n: usize) -> Result<Matrix, WrongMatrix> {
     let text = text.trim_start_matches('\u{feff}');
     let (is_dense, symmetry) = header(text.lines().next().unwrap_or_default())?;
     let mut lines = MarketLines { lines: text.lines().enumerate() };
-    let (line, mut words) = lines.next().ok_or("a Matrix Market file with a line of sizes")?;
-    let mut size = |what: &str| {
-        words
-            .next()
-            .and_then(|word| word.parse::<usize>().ok())
-            .ok_or_else(|| format!("line {line}: the numbers of rows and columns{what}"))
+    let (line, mut words) = lines.next().ok_or(WrongMatrix::NoSizes)?;
+    let mut size = || {
+        let found = words.next().and_then(|word| word.parse::<usize>().ok());
+        found.ok_or(WrongMatrix::Sizes { line, is_dense })
     };
-    let sparse = if is_dense { "" } else { ", and of entries" };
-    let (rows, columns) = (size(sparse)?, size(sparse)?);
+    let (rows, columns) = (size()?, size()?);
     if (rows, columns) != (n, n) {
-        return Err(format!(
-            "a matrix of {n} rows and {n} columns, one for each name; line {line} says {rows} and {columns}"
-        ));
+        return Err(WrongMatrix::OtherSize { n, line, rows, columns });
     }
     if is_dense {
         return dense(&mut lines, n, symmetry);
     }
-    let entries = size(sparse)?;
+    let entries = size()?;
     if entries > n * n {
-        return Err(format!("at most {} entries; line {line} says {entries}", n * n));
+        return Err(WrongMatrix::TooManyEntries { most: n * n, line, entries });
     }
     coordinates(&mut lines, n, symmetry, entries)
 }
 
 /// Whether a file is dense, and its symmetry.
-fn header(line: &str) -> Result<(bool, MarketSymmetry), String> {
+fn header(line: &str) -> Result<(bool, MarketSymmetry), WrongMatrix> {
     let words: Vec<String> = line.split_whitespace().map(str::to_lowercase).collect();
     let [banner, object, format, field, symmetry] = words.as_slice() else {
-        return Err(HEADER.to_owned());
+        return Err(WrongMatrix::Header(None));
     };
     if banner != BANNER || object != "matrix" {
-        return Err(HEADER.to_owned());
+        return Err(WrongMatrix::Header(None));
     }
     let is_dense = match format.as_str() {
         "array" => true,
         "coordinate" => false,
-        _ => return Err(format!("{HEADER}; it says {format:?}")),
+        _ => return Err(WrongMatrix::Header(Some(format.clone()))),
     };
     if !["real", "integer", "double"].contains(&field.as_str()) {
-        return Err(format!("a matrix of real or integer numbers; line 1 says {field:?}"));
+        return Err(WrongMatrix::Field(field.clone()));
     }
     let symmetry = match symmetry.as_str() {
         "general" => MarketSymmetry::General,
         "symmetric" => MarketSymmetry::Symmetric,
         "skew-symmetric" => MarketSymmetry::Skew,
-        _ => return Err(format!("{HEADER}; it says {symmetry:?}")),
+        _ => return Err(WrongMatrix::Header(Some(symmetry.clone()))),
     };
     Ok((is_dense, symmetry))
 }
@@ -105,7 +238,7 @@ fn dense(
     lines: &mut MarketLines<'_>,
     n: usize,
     symmetry: MarketSymmetry,
-) -> Result<Matrix, String> {
+) -> Result<Matrix, WrongMatrix> {
     let mut matrix = Matrix::zeros(n, n);
     for j in 0..n {
         let first = match symmetry {
@@ -114,9 +247,8 @@ fn dense(
             MarketSymmetry::Skew => j + 1,
         };
         for i in first..n {
-            let place = format!("entry ({}, {})", i + 1, j + 1);
             let (line, mut words) =
-                lines.next().ok_or_else(|| format!("a file that does not end before {place}"))?;
+                lines.next().ok_or(WrongMatrix::EndsBefore { row: i + 1, column: j + 1 })?;
             let value = number(words.next(), line)?;
             ended(words, line)?;
             set(&mut matrix, (i, j), value, symmetry);
@@ -132,30 +264,29 @@ fn coordinates(
     n: usize,
     symmetry: MarketSymmetry,
     entries: usize,
-) -> Result<Matrix, String> {
+) -> Result<Matrix, WrongMatrix> {
     let mut matrix = Matrix::zeros(n, n);
     let mut given = vec![false; n * n];
     for count in 0..entries {
         let (line, mut words) =
-            lines.next().ok_or_else(|| format!("{entries} entries; the file has {count}"))?;
-        let mut index = |what: &str| {
+            lines.next().ok_or(WrongMatrix::TooFewEntries { entries, count })?;
+        let mut index = |what: &'static str| {
             let found = words.next().and_then(|word| word.parse::<usize>().ok());
-            found.filter(|found| (1..=n).contains(found)).map(|found| found - 1).ok_or_else(|| {
-                format!("line {line}: the {what} of an entry, a whole number from 1 to {n}")
-            })
+            found
+                .filter(|found| (1..=n).contains(found))
+                .map(|found| found - 1)
+                .ok_or(WrongMatrix::Index { line, what, n })
         };
         let (i, j) = (index("row")?, index("column")?);
         let value = number(words.next(), line)?;
         ended(words, line)?;
         if symmetry == MarketSymmetry::Skew && i == j {
-            return Err(format!(
-                "line {line}: an entry off the diagonal: a skew-symmetric matrix has zeros on it"
-            ));
+            return Err(WrongMatrix::OnDiagonal { line });
         }
         let mirrored = symmetry != MarketSymmetry::General;
         if given[i * n + j] || mirrored && given[j * n + i] {
             let (row, column) = (i + 1, j + 1);
-            return Err(format!("line {line}: each entry once; ({row}, {column}) is repeated"));
+            return Err(WrongMatrix::Repeated { line, row, column });
         }
         given[i * n + j] = true;
         set(&mut matrix, (i, j), value, symmetry);
@@ -174,22 +305,22 @@ fn set(matrix: &mut Matrix, (i, j): (usize, usize), value: f64, symmetry: Market
     matrix[(i, j)] = value;
 }
 
-fn number(word: Option<&str>, line: usize) -> Result<f64, String> {
+fn number(word: Option<&str>, line: usize) -> Result<f64, WrongMatrix> {
     let value = word.and_then(|word| word.parse::<f64>().ok()).filter(|value| value.is_finite());
-    value.ok_or_else(|| format!("line {line}: a finite number"))
+    value.ok_or(WrongMatrix::NotFinite { line })
 }
 
-fn ended(mut words: SplitWhitespace<'_>, line: usize) -> Result<(), String> {
+fn ended(mut words: SplitWhitespace<'_>, line: usize) -> Result<(), WrongMatrix> {
     match words.next() {
         None => Ok(()),
-        Some(_) => Err(format!("line {line}: nothing after the number")),
+        Some(_) => Err(WrongMatrix::AfterNumber { line }),
     }
 }
 
-fn rest(lines: &mut MarketLines<'_>) -> Result<(), String> {
+fn rest(lines: &mut MarketLines<'_>) -> Result<(), WrongMatrix> {
     match lines.next() {
         None => Ok(()),
-        Some((line, _)) => Err(format!("a file that ends after its entries; line {line} follows")),
+        Some((line, _)) => Err(WrongMatrix::AfterEntries { line }),
     }
 }
 
@@ -261,7 +392,7 @@ mod tests {
             (format!("{array}2 2\n1\n2 3\n3\n4\n"), "line 4: nothing after"),
             (format!("{array}2 2\n1\n2\n3\n4\n5\n"), "line 7 follows"),
         ] {
-            let wrong = parse(&text, 2).expect_err(&text);
+            let wrong = parse(&text, 2).expect_err(&text).to_string();
             assert!(wrong.contains(part), "{text}: {wrong}");
         }
     }

@@ -9,11 +9,13 @@
 //!
 //! Other columns are ignored. Every invalid cell is reported with its line.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::complaint::{Complaint, Failure};
-use crate::data_file::{self, DataFile, Row, complaint};
+use crate::complaint::Failure;
+use crate::data_file::{self, DataFile, Row, complaint, reported};
 use crate::input::Inputs;
+use crate::wrong_file::WrongTable;
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of measured friction";
@@ -21,8 +23,57 @@ const WHAT: &str = "a CSV file of measured friction";
 /// The most points: the search computes the curve at each of them some thousand times.
 pub const MOST_POINTS: usize = 100_000;
 
-/// The most invalid cells that are reported.
-const REPORTED: usize = 20;
+/// What is wrong with a file of measured friction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WrongFriction {
+    /// No column has slip velocities; the columns in words.
+    NoVelocity(String),
+    /// No column has coefficients, and none forces and loads; the columns in words.
+    NoFriction(String),
+    /// Two columns have the same quantity.
+    Both([&'static str; 2]),
+    /// A cell.
+    Cell(WrongTable),
+    /// The quotient of force and load of a line, from 1, is not finite.
+    Quotient {
+        /// The line.
+        line: usize,
+    },
+    /// There are more points than can be fitted.
+    TooManyPoints(usize),
+    /// There are no points.
+    NoPoints,
+}
+
+impl fmt::Display for WrongFriction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoVelocity(has) => write!(
+                f,
+                "{WHAT} with a column slip_velocity or slip_velocity_m_per_s; it has {has}"
+            ),
+            Self::NoFriction(has) => write!(
+                f,
+                "{WHAT} with a column friction_coefficient or coefficient, or with friction_force and normal_load; it has {has}"
+            ),
+            Self::Both([first, second]) => {
+                write!(f, "{WHAT} with one of the columns {first} and {second}, not both")
+            }
+            Self::Cell(why) => why.fmt(f),
+            Self::Quotient { line } => write!(
+                f,
+                "line {line}: the quotient of force and load is beyond the range of floating-point numbers"
+            ),
+            Self::TooManyPoints(count) => write!(
+                f,
+                "it has {count} points, and at most {MOST_POINTS} are fitted: average neighbouring points first"
+            ),
+            Self::NoPoints => write!(f, "{WHAT}; it has no points"),
+        }
+    }
+}
+
+impl std::error::Error for WrongFriction {}
 
 /// One measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,35 +102,24 @@ impl FrictionData {
     /// # Errors
     /// Complaints about a file that cannot be read, missing columns, and every invalid cell.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let wrong = |why: String| complaint(path, why);
-        let text = data_file::text(path, WHAT).map_err(wrong)?;
-        let file = DataFile::new(&text, WHAT).map_err(wrong)?;
+        let text = data_file::text(path, WHAT).map_err(|why| complaint(path, why))?;
+        let file = DataFile::new(&text, WHAT).map_err(|why| complaint(path, why))?;
+        let wrong = |why: WrongFriction| complaint(path, why);
         let columns = Columns::find(&file).map_err(wrong)?;
         if file.rows().len() > MOST_POINTS {
-            let count = file.rows().len();
-            return Err(wrong(format!(
-                "it has {count} points, and at most {MOST_POINTS} are fitted: average neighbouring points first"
-            ))
-            .into());
+            return Err(wrong(WrongFriction::TooManyPoints(file.rows().len())).into());
         }
         let mut points = Vec::new();
-        let mut found: Vec<Complaint> = Vec::new();
+        let mut found = Vec::new();
         for row in file.rows() {
             match columns.point(row) {
                 Ok(point) => points.push(point),
-                Err(whys) => found.extend(whys.into_iter().map(wrong)),
+                Err(whys) => found.extend(whys),
             }
         }
-        if found.len() > REPORTED {
-            let further = found.len() - REPORTED;
-            found.truncate(REPORTED);
-            found.push(wrong(format!("{further} further cells are invalid")));
-        }
-        if !found.is_empty() {
-            return Err(found.into());
-        }
+        reported(path, &found)?;
         if points.is_empty() {
-            return Err(wrong(format!("{WHAT}; it has no points")).into());
+            return Err(wrong(WrongFriction::NoPoints).into());
         }
         Ok(Self { path: path.to_owned(), points, columns: columns.names() })
     }
@@ -150,24 +190,15 @@ enum FrictionColumns {
 }
 
 impl Columns {
-    fn find(file: &DataFile<'_>) -> Result<Self, String> {
-        let velocity = one_of(file, &VELOCITIES)?.ok_or_else(|| {
-            format!(
-                "{WHAT} with a column slip_velocity or slip_velocity_m_per_s; it has {}",
-                file.listed()
-            )
-        })?;
+    fn find(file: &DataFile<'_>) -> Result<Self, WrongFriction> {
+        let velocity = one_of(file, &VELOCITIES)?;
+        let velocity = velocity.ok_or_else(|| WrongFriction::NoVelocity(file.listed()))?;
         let force = one_of(file, &FORCES)?;
         let load = one_of(file, &LOADS)?;
         let friction = match (one_of(file, &COEFFICIENTS)?, force, load) {
             (Some(coefficient), ..) => FrictionColumns::Coefficient(coefficient),
             (None, Some(force), Some(load)) => FrictionColumns::Forces { force, load },
-            _ => {
-                return Err(format!(
-                    "{WHAT} with a column friction_coefficient or coefficient, or with friction_force and normal_load; it has {}",
-                    file.listed()
-                ));
-            }
+            _ => return Err(WrongFriction::NoFriction(file.listed())),
         };
         let deviation = one_of(file, &[DEVIATION])?;
         Ok(Self { velocity, friction, deviation })
@@ -183,12 +214,12 @@ impl Columns {
     }
 
     /// The point of a row, or what is wrong with its cells.
-    fn point(&self, row: &Row<'_>) -> Result<MeasuredPoint, Vec<String>> {
+    fn point(&self, row: &Row<'_>) -> Result<MeasuredPoint, Vec<WrongFriction>> {
         let mut wrong = Vec::new();
         let mut number = |column: NamedColumn, allowed: &str, right: fn(f64) -> bool| {
             let found = row
                 .number(column.at, column.name, allowed, |value| value.is_finite() && right(value));
-            found.map_err(|why| wrong.push(why)).unwrap_or(f64::NAN)
+            found.map_err(|why| wrong.push(WrongFriction::Cell(why))).unwrap_or(f64::NAN)
         };
         let any = |_: f64| true;
         let positive = |value: f64| value > 0.0;
@@ -210,17 +241,17 @@ impl Columns {
             return Err(wrong);
         }
         if !coefficient.is_finite() {
-            return Err(vec![format!(
-                "{}: the quotient of force and load is beyond the range of floating-point numbers",
-                row.place()
-            )]);
+            return Err(vec![WrongFriction::Quotient { line: row.line() }]);
         }
         Ok(MeasuredPoint { line: row.line(), slip_velocity, coefficient, standard_deviation })
     }
 }
 
 /// The one column of these names that the file has.
-fn one_of(file: &DataFile<'_>, names: &[&'static str]) -> Result<Option<NamedColumn>, String> {
+fn one_of(
+    file: &DataFile<'_>,
+    names: &[&'static str],
+) -> Result<Option<NamedColumn>, WrongFriction> {
     let found: Vec<NamedColumn> = names
         .iter()
         .filter_map(|&name| Some(NamedColumn { at: file.column(name)?, name }))
@@ -228,10 +259,7 @@ fn one_of(file: &DataFile<'_>, names: &[&'static str]) -> Result<Option<NamedCol
     match found[..] {
         [] => Ok(None),
         [only] => Ok(Some(only)),
-        [first, second, ..] => Err(format!(
-            "{WHAT} with one of the columns {} and {}, not both",
-            first.name, second.name
-        )),
+        [first, second, ..] => Err(WrongFriction::Both([first.name, second.name])),
     }
 }
 
@@ -239,12 +267,12 @@ fn one_of(file: &DataFile<'_>, names: &[&'static str]) -> Result<Option<NamedCol
 mod tests {
     use super::*;
 
-    fn read(name: &str, text: &str) -> Result<FrictionData, String> {
+    fn read(name: &str, text: &str) -> Result<FrictionData, Failure> {
         let folder = std::env::temp_dir().join(format!("quell-measurement-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");
         let path = folder.join(name);
         std::fs::write(&path, text).expect("written");
-        FrictionData::read(&path).map_err(|why| why.to_string())
+        FrictionData::read(&path)
     }
 
     #[test]
@@ -275,10 +303,10 @@ mod tests {
     #[test]
     fn cells_beyond_the_columns_and_columns_of_one_name_are_refused() {
         let commas = read("commas", "slip_velocity,coefficient\n1,1,0,40\n2,1,0,38\n");
-        let said = commas.expect_err("decimal commas");
+        let said = commas.expect_err("decimal commas").to_string();
         assert!(said.contains("line 2: 4 cells for 2 columns"), "{said}");
         let twice = read("twice", "slip_velocity,coefficient,coefficient\n1,0.4,0.3\n");
-        let said = twice.expect_err("two columns");
+        let said = twice.expect_err("two columns").to_string();
         assert!(said.contains("columns 2 and 3 have the same"), "{said}");
         // A comma at the end of a line adds nothing.
         assert!(read("end", "slip_velocity,coefficient\n1,0.4,\n2,0.3,\n").is_ok());
@@ -287,7 +315,7 @@ mod tests {
     #[test]
     fn every_invalid_cell_is_reported_with_line_and_column() {
         let text = "slip_velocity,coefficient\nx,0.4\n0.1,nan\n0.2,0.3\n0.3\n";
-        let said = read("d.csv", text).expect_err("three invalid cells");
+        let said = read("d.csv", text).expect_err("three invalid cells").to_string();
         for words in
             ["line 2, slip_velocity: \"x\"", "line 3, coefficient: \"nan\"", "line 5, coefficient"]
         {
@@ -306,7 +334,7 @@ mod tests {
             ("j.csv", "slip_velocity,coefficient\n", "no points"),
             ("k.csv", "", "a header line"),
         ] {
-            let said = read(name, text).expect_err(text);
+            let said = read(name, text).expect_err(text).to_string();
             assert!(said.contains(words), "{text:?}: {said}");
         }
     }

@@ -4,14 +4,14 @@
 //! point, and its numbers are the displacements of the point in the modes.
 
 use std::f64::consts::TAU;
+use std::fmt;
 
-use quell_model::parameter::system::{
-    SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
-};
-use quell_model::parameter::{Bounds, Parameter};
+use quell_model::parameter::Bounds;
+use quell_model::parameter::system::{SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING};
 
 use crate::data_file::DataFile;
 use crate::files::WantedFile;
+use crate::wrong_file::{WrongFile, WrongTable};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of modes";
@@ -19,8 +19,47 @@ const WHAT: &str = "a CSV file of modes";
 /// The file.
 pub const WANTED: WantedFile = WantedFile::of(WHAT);
 
-/// The column of frequencies in hertz.
-const HERTZ: &str = "frequency_hz";
+/// What is wrong with a list of modes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WrongModes {
+    /// There are more modes than allowed.
+    TooMany {
+        /// The largest number.
+        most: usize,
+        /// Their number.
+        count: usize,
+    },
+    /// There are no modes.
+    Empty,
+    /// No column has displacements of a point.
+    NoPoint,
+    /// A column has no name.
+    UnnamedColumn,
+    /// No column has the frequencies of a disc.
+    NoRatio,
+}
+
+impl fmt::Display for WrongModes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooMany { most, count } => {
+                write!(f, "a CSV file of at most {most} modes; this one has {count}")
+            }
+            Self::Empty => f.write_str("a CSV file with at least one mode"),
+            Self::NoPoint => f.write_str("a CSV file with a column for each point of the shapes"),
+            Self::UnnamedColumn => f.write_str("a CSV file with a name for every column"),
+            Self::NoRatio => f.write_str("a CSV file with a column ratio or frequency_hz"),
+        }
+    }
+}
+
+impl std::error::Error for WrongModes {}
+
+impl From<WrongModes> for WrongFile<WrongModes> {
+    fn from(why: WrongModes) -> Self {
+        Self::Contents(why)
+    }
+}
 
 /// A mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,26 +89,15 @@ pub struct ModeList {
 ///
 /// # Errors
 /// What is wrong, with its line.
-pub fn parse(text: &str, most: usize) -> Result<ModeList, String> {
+pub fn parse(text: &str, most: usize) -> Result<ModeList, WrongFile<WrongModes>> {
     let file = DataFile::new(text, WHAT)?;
     let count = file.rows().len();
     if count > most {
-        return Err(format!("a CSV file of at most {most} modes; this one has {count}"));
+        return Err(WrongModes::TooMany { most, count }.into());
     }
-    let column = |parameter: Parameter| file.column(parameter.key());
-    let (frequency, in_hertz) = match (column(SYSTEM_MODE_FREQUENCY), file.column(HERTZ)) {
-        (Some(_), Some(_)) => {
-            return Err(format!(
-                "a CSV file with either the column frequency, angular, or {HERTZ}; this one has both"
-            ));
-        }
-        (Some(at), None) => (at, false),
-        (None, Some(at)) => (at, true),
-        (None, None) => return Err(format!("a CSV file with a column frequency or {HERTZ}")),
-    };
-    let damping = column(SYSTEM_MODE_DAMPING)
-        .ok_or_else(|| "a CSV file with a column damping_ratio".to_owned())?;
-    let mass = column(SYSTEM_MODAL_MASS);
+    let (frequency, in_hertz) = file.frequency()?;
+    let damping = file.needed(SYSTEM_MODE_DAMPING.key())?;
+    let mass = file.column(SYSTEM_MODAL_MASS.key());
     let known = [Some(frequency), Some(damping), mass];
     let points: Vec<(usize, &str)> = file
         .names()
@@ -79,10 +107,10 @@ pub fn parse(text: &str, most: usize) -> Result<ModeList, String> {
         .map(|(at, name)| (at, *name))
         .collect();
     if points.is_empty() {
-        return Err("a CSV file with a column for each point of the shapes".to_owned());
+        return Err(WrongModes::NoPoint.into());
     }
     if points.iter().any(|(_, name)| name.is_empty()) {
-        return Err("a CSV file with a name for every column".to_owned());
+        return Err(WrongModes::UnnamedColumn.into());
     }
     let modes: Vec<SystemMode> = file
         .rows()
@@ -91,7 +119,7 @@ pub fn parse(text: &str, most: usize) -> Result<ModeList, String> {
             let number = |at: usize, name: &str, bounds: Bounds| {
                 row.number(at, name, &bounds.to_string(), |value| bounds.contains(value))
             };
-            let name = if in_hertz { HERTZ } else { "frequency" };
+            let name = if in_hertz { "frequency_hz" } else { "frequency" };
             let written = number(frequency, name, Bounds::NOT_NEGATIVE)?;
             let shape = points.iter().map(|(at, name)| number(*at, name, Bounds::FINITE));
             Ok(SystemMode {
@@ -100,12 +128,12 @@ pub fn parse(text: &str, most: usize) -> Result<ModeList, String> {
                 modal_mass: mass
                     .map(|at| number(at, "modal_mass", Bounds::POSITIVE))
                     .transpose()?,
-                shape: shape.collect::<Result<_, String>>()?,
+                shape: shape.collect::<Result<_, WrongTable>>()?,
             })
         })
-        .collect::<Result<_, String>>()?;
+        .collect::<Result<_, WrongTable>>()?;
     if modes.is_empty() {
-        return Err("a CSV file with at least one mode".to_owned());
+        return Err(WrongModes::Empty.into());
     }
     let points = points.into_iter().map(|(_, name)| name.to_owned()).collect();
     Ok(ModeList { in_hertz, points, modes })
@@ -132,10 +160,10 @@ mod tests {
             ("frequency,damping_ratio,x\n", "at least one mode"),
             ("frequency,damping_ratio,x,x\n1,0,1,1\n", "different names"),
         ] {
-            let wrong = parse(text, 10).expect_err(text);
+            let wrong = parse(text, 10).expect_err(text).to_string();
             assert!(wrong.contains(part), "{text}: {wrong}");
         }
         let many = "frequency,damping_ratio,x\n".to_owned() + &"1,0,1\n".repeat(100_000);
-        assert!(parse(&many, 2000).expect_err("too many").contains("100000"));
+        assert!(parse(&many, 2000).expect_err("too many").to_string().contains("100000"));
     }
 }

@@ -17,17 +17,15 @@ use quell_model::RecordedQuantity;
 use quell_numerics::order::ascending;
 
 use crate::complaint::{Complaint, Failure};
-use crate::data_file::{self, DataFile, complaint};
+use crate::data_file::{self, DataFile, complaint, reported};
 use crate::input::Inputs;
 use crate::nearest;
+use crate::wrong_file::WrongTable;
 
 const WHAT: &str = "a CSV file of a measured record";
 
 /// The most samples: a fit holds some tens of numbers for each.
 pub const MOST_SAMPLES: usize = 500_000;
-
-/// The most invalid cells that are reported.
-const REPORTED: usize = 20;
 
 /// Least number of samples of a record: of the shortest one with a spectrum.
 const LEAST_SAMPLES: usize = 8;
@@ -210,9 +208,8 @@ impl MeasuredFile {
     /// # Errors
     /// Complaints about a file that cannot be read, missing columns, and every invalid cell.
     pub fn read(path: &Path, request: &RecordRequest) -> Result<Self, Failure> {
-        let wrong = |why: String| complaint(path, why);
-        let text = data_file::text(path, WHAT).map_err(wrong)?;
-        let file = DataFile::new(&text, WHAT).map_err(wrong)?;
+        let text = data_file::text(path, WHAT).map_err(|why| complaint(path, why))?;
+        let file = DataFile::new(&text, WHAT).map_err(|why| complaint(path, why))?;
         let has = |names: &[NamedUnit]| names.iter().any(|(name, _)| file.column(name).is_some());
         if has(FREQUENCIES) && !has(TIMES) {
             return read_spectrum(path, &file, request).map(Self::Spectrum);
@@ -246,7 +243,7 @@ impl TimeSeries {
             MeasuredFile::Record(record) => Ok(record),
             MeasuredFile::Spectrum(_) => {
                 let why = "a time series with a column time or time_s; this file is a spectrum";
-                Err(complaint(path, why.to_owned()).into())
+                Err(complaint(path, why).into())
             }
         }
     }
@@ -349,10 +346,12 @@ fn read_record(
         if let (Ok(time), Some(last)) = (&time, last)
             && *time <= last
         {
-            found.push(format!(
-                "{}, {time_name}: {time} must be above the time of the line before, {last}",
-                row.place()
-            ));
+            found.push(WrongTable::Cell {
+                line: row.line(),
+                column: time_name.to_owned(),
+                cell: time.to_string(),
+                allowed: format!("above the time of the line before, {last}"),
+            });
         }
         last = time.as_ref().ok().copied().or(last);
         match (time, reading) {
@@ -368,7 +367,7 @@ fn read_record(
             (time, reading) => found.extend([time.err(), reading.err()].into_iter().flatten()),
         }
     }
-    reported(path, found)?;
+    reported(path, &found)?;
     if record.times.len() < LEAST_SAMPLES {
         let part = if request.window.is_some() { " in the window" } else { "" };
         let count = record.times.len();
@@ -419,7 +418,7 @@ fn read_spectrum(
             }
         }
     }
-    reported(path, found)?;
+    reported(path, &found)?;
     if frequencies.len() < LEAST_SAMPLES {
         let why =
             format!("at least {LEAST_SAMPLES} lines of a spectrum; it has {}", frequencies.len());
@@ -501,29 +500,16 @@ fn first_of(file: &DataFile<'_>, names: &[NamedUnit]) -> Option<FoundColumn> {
     names.iter().find_map(|(name, unit)| Some((file.column(name)?, *name, *unit)))
 }
 
-/// Fails with the first complaints about cells.
-fn reported(path: &Path, mut found: Vec<String>) -> Result<(), Failure> {
-    if found.is_empty() {
-        return Ok(());
-    }
-    if found.len() > REPORTED {
-        let further = found.len() - REPORTED;
-        found.truncate(REPORTED);
-        found.push(format!("{further} further cells are invalid"));
-    }
-    Err(found.into_iter().map(|why| complaint(path, why)).collect::<Vec<_>>().into())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn read(name: &str, text: &str, request: &RecordRequest) -> Result<MeasuredFile, String> {
+    fn read(name: &str, text: &str, request: &RecordRequest) -> Result<MeasuredFile, Failure> {
         let folder = std::env::temp_dir().join(format!("quell-record-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");
         let path = folder.join(name);
         std::fs::write(&path, text).expect("written");
-        MeasuredFile::read(&path, request).map_err(|why| why.to_string())
+        MeasuredFile::read(&path, request)
     }
 
     fn rows(header: &str, row: impl Fn(u32) -> String) -> String {
@@ -547,22 +533,25 @@ mod tests {
     fn an_unknown_column_needs_its_quantity() {
         let text = rows("time,ch1", |k| format!("{k},{k}"));
         let named = RecordRequest { column: Some("ch1".to_owned()), ..RecordRequest::default() };
-        let said = read("b.csv", &text, &named).expect_err("no quantity");
+        let said = read("b.csv", &text, &named).expect_err("no quantity").to_string();
         assert!(said.contains("--quantity"), "{said}");
         let request = RecordRequest { quantity: Some(RecordedQuantity::Velocity), ..named };
         assert!(read("b.csv", &text, &request).is_ok());
         let other = RecordRequest { column: Some("ch2".to_owned()), ..request };
-        assert!(read("b.csv", &text, &other).expect_err("no column").contains("ch1"));
+        assert!(read("b.csv", &text, &other).expect_err("no column").to_string().contains("ch1"));
     }
 
     #[test]
     fn times_backwards_gaps_and_invalid_cells_are_named_by_line() {
         let back = rows("time,velocity", |k| format!("{},1", if k == 4 { 2 } else { k }));
-        let said = read("c.csv", &back, &RecordRequest::default()).expect_err("backwards");
+        let said =
+            read("c.csv", &back, &RecordRequest::default()).expect_err("backwards").to_string();
         assert!(said.contains("line 6") && said.contains("above"), "{said}");
         let invalid =
             rows("time,velocity", |k| format!("{k},{}", if k == 5 { "nan" } else { "1" }));
-        let said = read("d.csv", &invalid, &RecordRequest::default()).expect_err("not a number");
+        let said = read("d.csv", &invalid, &RecordRequest::default())
+            .expect_err("not a number")
+            .to_string();
         assert!(said.contains("line 7, velocity"), "{said}");
         let gap = rows("time,velocity", |k| format!("{},1", if k > 6 { k + 3 } else { k }));
         let Ok(MeasuredFile::Record(record)) = read("e.csv", &gap, &RecordRequest::default())
@@ -572,7 +561,7 @@ mod tests {
         assert_eq!(record.gaps(), [8]);
         assert!(record.even_step().expect_err("a gap").to_string().contains("line 8"));
         let short = read("f.csv", "time,velocity\n0,1\n1,2\n", &RecordRequest::default());
-        assert!(short.expect_err("short").contains("at least 8 samples; it has 2"));
+        assert!(short.expect_err("short").to_string().contains("at least 8 samples; it has 2"));
     }
 
     #[test]

@@ -3,8 +3,11 @@
 //! The file has one number per line, or is a CSV file whose header line names the column `value` (a single column may have any name).
 //! Comment lines begin with `#`. The samples are at equal distances, so that no line may be left out.
 
+use std::fmt;
+
 use crate::data_file;
 use crate::files::{Files, WantedFile};
+use crate::wrong_file::WrongFile;
 
 /// What the file must be.
 const WHAT: &str = "a file of samples, one number per line, or a CSV file with a column value";
@@ -19,6 +22,66 @@ const TIMES: [&str; 2] = ["time", "time_s"];
 /// digits for each step stay within it; a gap of one sample is a difference of 100 %. Smaller jitter is not noticed.
 const UNEQUAL: f64 = 0.1;
 
+/// What is wrong with the samples of a waveform.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WrongWave {
+    /// The file is empty.
+    Empty,
+    /// No column has samples.
+    NoValue,
+    /// A line, from 1, is empty.
+    Gap {
+        /// The line.
+        line: usize,
+    },
+    /// A line, from 1, lacks a finite number.
+    NotFinite {
+        /// The line.
+        line: usize,
+        /// What the number is.
+        kind: &'static str,
+    },
+    /// The time of a line, from 1, is not above that of the line before.
+    NotAscending {
+        /// The line.
+        line: usize,
+    },
+    /// The step in time to a line, from 1, is not the mean step.
+    UnequalStep {
+        /// The line.
+        line: usize,
+    },
+}
+
+impl fmt::Display for WrongWave {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => write!(f, "{WHAT}; this file is empty"),
+            Self::NoValue => f.write_str(WHAT),
+            Self::Gap { line } => {
+                write!(f, "line {line} is empty: samples are at equal distances, without gaps")
+            }
+            Self::NotFinite { line, kind } => {
+                write!(f, "line {line} must have a finite number as {kind}")
+            }
+            Self::NotAscending { line } => write!(f, "line {line}: times must ascend"),
+            Self::UnequalStep { line } => write!(
+                f,
+                "line {line}: its step in time differs from the mean step by more than {} %; samples are at equal distances",
+                100.0 * UNEQUAL
+            ),
+        }
+    }
+}
+
+impl std::error::Error for WrongWave {}
+
+impl From<WrongWave> for WrongFile<WrongWave> {
+    fn from(why: WrongWave) -> Self {
+        Self::Contents(why)
+    }
+}
+
 /// The samples of a file.
 struct FileSamples(Vec<f64>);
 
@@ -26,21 +89,21 @@ struct FileSamples(Vec<f64>);
 ///
 /// # Errors
 /// Why it cannot be read, or the line that is wrong.
-pub fn values(files: &mut Files, key: &str, name: &str) -> Result<Vec<f64>, String> {
+pub fn values(files: &mut Files, key: &str, name: &str) -> Result<Vec<f64>, WrongFile<WrongWave>> {
     let samples =
         files.parsed(key, name, WantedFile::of(WHAT), |text| parse(text).map(FileSamples))?;
     Ok(samples.0.clone())
 }
 
 /// The samples of a text. Messages show nothing of it: a study may name any file.
-fn parse(text: &str) -> Result<Vec<f64>, String> {
+fn parse(text: &str) -> Result<Vec<f64>, WrongFile<WrongWave>> {
     let lines = text.trim_end().lines().enumerate();
     let mut lines = lines
         .map(|(index, line)| (index + 1, line.trim().trim_start_matches('\u{feff}')))
         .filter(|(_, line)| !line.starts_with('#'))
         .skip_while(|(_, line)| line.is_empty())
         .peekable();
-    let (_, first) = lines.peek().copied().ok_or_else(|| format!("{WHAT}; this file is empty"))?;
+    let (_, first) = lines.peek().copied().ok_or(WrongWave::Empty)?;
     let number = |cell: &str| cell.trim().trim_matches('"').parse::<f64>();
     let (column, time, columns) = if number(first).is_ok() {
         (0, None, 1)
@@ -49,7 +112,7 @@ fn parse(text: &str) -> Result<Vec<f64>, String> {
         data_file::distinct(&names)?;
         let column = match names.iter().position(|name| *name == COLUMN) {
             None if names.len() == 1 => 0,
-            found => found.ok_or(WHAT)?,
+            found => found.ok_or(WrongWave::NoValue)?,
         };
         lines.next();
         (column, names.iter().position(|name| TIMES.contains(name)), names.len())
@@ -58,9 +121,7 @@ fn parse(text: &str) -> Result<Vec<f64>, String> {
     let mut values = Vec::new();
     for (line, row) in lines {
         if row.is_empty() {
-            return Err(format!(
-                "line {line} is empty: samples are at equal distances, without gaps"
-            ));
+            return Err(WrongWave::Gap { line }.into());
         }
         let cells: Vec<&str> = row.split(',').collect();
         data_file::within(&cells, columns, line)?;
@@ -68,13 +129,9 @@ fn parse(text: &str) -> Result<Vec<f64>, String> {
             let found = cells.get(place).and_then(|cell| number(cell).ok());
             found.filter(|value| value.is_finite())
         };
-        values.push(
-            finite(column)
-                .ok_or_else(|| format!("line {line} must have a finite number as sample"))?,
-        );
+        values.push(finite(column).ok_or(WrongWave::NotFinite { line, kind: "sample" })?);
         if let Some(place) = time {
-            let found = finite(place)
-                .ok_or_else(|| format!("line {line} must have a finite number as time"))?;
+            let found = finite(place).ok_or(WrongWave::NotFinite { line, kind: "time" })?;
             times.push((line, found));
         }
     }
@@ -86,7 +143,7 @@ fn parse(text: &str) -> Result<Vec<f64>, String> {
 ///
 /// # Errors
 /// The line with another step.
-fn equal_steps(times: &[(usize, f64)]) -> Result<(), String> {
+fn equal_steps(times: &[(usize, f64)]) -> Result<(), WrongWave> {
     let [(_, first), .., (_, last)] = times else { return Ok(()) };
     let mean = (last - first) / (times.len() - 1) as f64;
     let rounding = f64::EPSILON * first.abs().max(last.abs());
@@ -97,13 +154,9 @@ fn equal_steps(times: &[(usize, f64)]) -> Result<(), String> {
     });
     let Some(pair) = wrong else { return Ok(()) };
     if pair[1].1 <= pair[0].1 {
-        return Err(format!("line {}: times must ascend", pair[1].0));
+        return Err(WrongWave::NotAscending { line: pair[1].0 });
     }
-    Err(format!(
-        "line {}: its step in time differs from the mean step by more than {} %; samples are at equal distances",
-        pair[1].0,
-        100.0 * UNEQUAL
-    ))
+    Err(WrongWave::UnequalStep { line: pair[1].0 })
 }
 
 #[cfg(test)]
@@ -136,7 +189,7 @@ mod tests {
             ("time_s,value\n0,1\n-1,2\n-2,1\n", "times must ascend"),
             ("time,value\n0,1\nx,2\n", "line 3 must have a finite number as time"),
         ] {
-            let said = parse(text).expect_err(text);
+            let said = parse(text).expect_err(text).to_string();
             assert!(said.contains(words), "{text:?}: {said}");
         }
     }

@@ -19,6 +19,7 @@ mod invalid;
 pub mod parameter;
 pub mod profile;
 mod recorded;
+mod refused;
 pub mod system;
 pub mod units;
 pub mod waveform;
@@ -33,6 +34,7 @@ pub use friction::{
 pub use invalid::{Invalid, InvalidValues};
 pub use profile::Profile;
 pub use recorded::RecordedQuantity;
+pub use refused::RefusedNumbers;
 pub use system::{Contact, Input, Structure, System};
 pub use waveform::Waveform;
 

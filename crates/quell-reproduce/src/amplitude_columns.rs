@@ -5,7 +5,7 @@ use quell_dynamics::attractor::{
     Attractor, AttractorSettings, Patience, RunSwitches, VariedRun, measure, settle,
 };
 use quell_dynamics::orbit::{OrbitVerdict, branch_thresholds};
-use quell_model::System;
+use quell_model::{RefusedNumbers, System};
 
 use super::axis::values;
 use super::failure::failed;
@@ -81,7 +81,8 @@ impl AmplitudeColumns {
             .map(|amplitude| AmplitudeColumn::new(name, &study, amplitude))
             .collect::<Result<_, Failure>>()?;
         let at = |values: &[f64]| {
-            let study = study.with("dither.amplitude", values[0]).map_err(|why| why.to_string())?;
+            let study =
+                study.with("dither.amplitude", values[0]).map_err(RefusedNumbers::by_study)?;
             Ok(study.belt().system())
         };
         let ends = cases.first().zip(cases.last());

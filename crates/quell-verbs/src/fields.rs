@@ -2,6 +2,8 @@
 //!
 //! `units` contains the unit of every field, and `why` the reason for every null.
 
+use std::fmt::Display;
+
 use crate::study::UnitSystem;
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json};
@@ -46,7 +48,7 @@ impl Fields {
     }
 
     /// Adds null, with the reason.
-    pub fn unknown(&mut self, name: &str, why: impl Into<String>) -> &mut Self {
+    pub fn unknown(&mut self, name: &str, why: impl Display) -> &mut Self {
         self.plain(name, Json::Null).why(name, why)
     }
 
@@ -54,7 +56,7 @@ impl Fields {
     pub fn known_plain(
         &mut self,
         name: &str,
-        value: Result<impl Into<Json>, impl Into<String>>,
+        value: Result<impl Into<Json>, impl Display>,
     ) -> &mut Self {
         match value {
             Ok(value) => self.plain(name, value),
@@ -70,7 +72,7 @@ impl Fields {
 
     /// Adds a quantity.
     pub fn number(&mut self, name: &str, quantity: Quantity, value: f64) -> &mut Self {
-        self.known(name, quantity, Ok(value))
+        self.known(name, quantity, Ok::<_, &str>(value))
     }
 
     /// Adds a quantity, or null with the reason.
@@ -78,7 +80,7 @@ impl Fields {
         &mut self,
         name: &str,
         quantity: Quantity,
-        value: Result<f64, String>,
+        value: Result<f64, impl Display>,
     ) -> &mut Self {
         self.units.insert(name.to_owned(), self.unit(quantity).into());
         self.finite(name, value)
@@ -122,10 +124,10 @@ impl Fields {
     }
 
     /// Adds a finite value, or null with the reason.
-    fn finite(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
+    fn finite(&mut self, name: &str, value: Result<f64, impl Display>) -> &mut Self {
         let finite =
             |value: f64| if value.is_finite() { Ok(value) } else { Err(beyond_range(value)) };
-        self.known_plain(name, value.and_then(finite))
+        self.known_plain(name, value.map_err(|why| why.to_string()).and_then(finite))
     }
 
     /// Adds a growth rate in decibels per second, of a study in SI; or null with the reason.
@@ -153,8 +155,8 @@ impl Fields {
     }
 
     /// Adds the reason why an element `name[index]` is null; for a whole field see [`Fields::unknown`].
-    pub fn why(&mut self, name: &str, why: impl Into<String>) -> &mut Self {
-        self.why.insert(name.to_owned(), why.into().into());
+    pub fn why(&mut self, name: &str, why: impl Display) -> &mut Self {
+        self.why.insert(name.to_owned(), why.to_string().into());
         self
     }
 
@@ -272,7 +274,7 @@ mod tests {
         let mut fields = Fields::in_units(UnitSystem::Si);
         fields.number("time", Quantity::Time, 3.0).number("stick_fraction", Quantity::Ratio, 0.5);
         let mut inner = Fields::in_units(UnitSystem::Si);
-        inner.known("residual_vibration", Quantity::Ratio, Err("nothing to quench".into()));
+        inner.known("residual_vibration", Quantity::Ratio, Err("nothing to quench"));
         fields.list("points", [inner]);
         let json = fields.finish();
         assert_eq!(json["time"], 3.0);

@@ -2,7 +2,9 @@
 
 use std::borrow::Borrow;
 
-use quell_model::{Belt, Dither, Friction, InvalidValues, LawKind, System, Waveform};
+use quell_model::{
+    Belt, Dither, Friction, InvalidValues, LawKind, RefusedNumbers, System, Waveform,
+};
 
 use crate::dither::{normal, tangential};
 use crate::{NamedModel, law};
@@ -36,25 +38,24 @@ pub trait BeltExt: Sized {
 }
 
 /// The belt over the amplitude of its first dither.
-pub fn over_amplitudes(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, String> {
+pub fn over_amplitudes(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, RefusedNumbers> {
     |values| as_system(belt.with_amplitude(0, values[0]))
 }
 
 /// The belt over its velocity.
-pub fn over_velocities(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, String> {
+pub fn over_velocities(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, RefusedNumbers> {
     |values| as_system(belt.with_belt_velocity(values[0]))
 }
 
 /// The belt over the amplitude of its first dither and its velocity.
-pub fn over_amplitude_and_velocity(belt: &Belt) -> impl Fn(&[f64]) -> Result<System, String> {
-    |values| {
-        let belt = belt.with_belt_velocity(values[1]).map_err(|why| why.to_string())?;
-        as_system(belt.with_amplitude(0, values[0]))
-    }
+pub fn over_amplitude_and_velocity(
+    belt: &Belt,
+) -> impl Fn(&[f64]) -> Result<System, RefusedNumbers> {
+    |values| as_system(belt.with_belt_velocity(values[1])?.with_amplitude(0, values[0]))
 }
 
-fn as_system(belt: Result<Belt, InvalidValues>) -> Result<System, String> {
-    belt.map(|belt| belt.system()).map_err(|why| why.to_string())
+fn as_system(belt: Result<Belt, InvalidValues>) -> Result<System, RefusedNumbers> {
+    Ok(belt?.system())
 }
 
 impl BeltExt for Belt {

@@ -14,6 +14,7 @@ use quell_dynamics::motion::{
 use quell_dynamics::orbit::{
     Orbit, OrbitVerdict, base_response, branch_thresholds, free_cycle, settled, settled_many,
 };
+use quell_model::RefusedNumbers;
 use quell_study::study::system::{SystemStart, SystemStudy};
 use serde_json::Value as Json;
 
@@ -203,7 +204,7 @@ fn thresholds_are_those_of_the_reference() {
         let model = study.model();
         let parameter = model.parameter(path).expect("a number of the study");
         let at = |values: &[f64]| {
-            model.at(&[(parameter.clone(), values[0])]).map_err(|why| why.to_string())
+            model.at(&[(parameter.clone(), values[0])]).map_err(RefusedNumbers::by_study)
         };
         let window = (number(&case["from"]), number(&case["to"]));
         let found = branch_thresholds(&at, window, 8, None);

@@ -242,10 +242,7 @@ fn held_samples_of_a_sine_have_its_exact_threshold() {
     let keys = format!("waveform = \"samples\"\nhold = \"zero\"\nvalues = [{}]", values.join(", "));
     let [held, sine] = [keys.as_str(), "waveform = \"sine\""].map(|keys| {
         let belt = study(&with("tangential", keys));
-        let at = |values: &[f64]| {
-            let belt = belt.belt().with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
-            Ok(belt.system())
-        };
+        let at = |values: &[f64]| Ok(belt.belt().with_amplitude(0, values[0])?.system());
         let found = branch_thresholds(&at, (0.9, 1.3), 8, None).expect("a branch");
         found.thresholds.iter().map(|threshold| threshold.value).collect::<Vec<f64>>()
     });

@@ -5,7 +5,7 @@
 
 use quell_linear::driven_point::{DrivenPoint, PointOutput};
 
-use super::demand::{ActuatorDemand, ActuatorLimit, LimitUse, SignalSize, share};
+use super::demand::{ActuatorDemand, ActuatorLimit, LimitUse, SignalSize, UnknownDemand, share};
 
 /// A jump of a current is larger than this share of its range.
 const JUMP: f64 = 1e-9;
@@ -63,11 +63,11 @@ impl CoilActuator {
         let current = Ok(force.times(self.force_per_ampere.recip()));
         let inductance = self.inductance.unwrap_or(0.0);
         let voltage = match self.resistance {
-            None => Err("resistance is not given".to_owned()),
+            None => Err(UnknownDemand::NotGiven("resistance")),
             Some(_)
                 if inductance > 0.0 && outputs[0].largest_jump() > JUMP * force.peak_to_peak =>
             {
-                Err("the current jumps, which needs an unlimited voltage".to_owned())
+                Err(UnknownDemand::CurrentJumps)
             }
             Some(resistance) => {
                 let slope = inductance * point.frequency() / self.force_per_ampere;

@@ -11,6 +11,7 @@ use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, minimise};
 
 use super::demand::{ActuatorDemand, ActuatorLimit, ActuatorReach};
+use crate::NoAnswer;
 
 /// Halvings of an interval of frequencies: more than the digits of a double-precision number.
 const HALVINGS: usize = 64;
@@ -28,11 +29,11 @@ pub struct ActuatorAtFrequency {
     /// The frequency of the dither.
     pub frequency: f64,
     /// The demand of a dither of unit amplitude, or why it is unknown.
-    pub demand: Result<ActuatorDemand, String>,
+    pub demand: Result<ActuatorDemand, NoAnswer>,
     /// The largest fast slip velocity of every contact for unit amplitude, or why it is unknown.
-    pub slips: Result<Vec<f64>, String>,
+    pub slips: Result<Vec<f64>, NoAnswer>,
     /// The least amplitude that is quiet by averaging, or why no amplitude is.
-    pub needed: Result<f64, String>,
+    pub needed: Result<f64, NoAnswer>,
 }
 
 impl ActuatorAtFrequency {
@@ -40,15 +41,15 @@ impl ActuatorAtFrequency {
     ///
     /// # Errors
     /// Why it is unknown.
-    pub fn reach(&self) -> Result<ActuatorReach, String> {
-        self.demand.as_ref().map_err(Clone::clone)?.reach()
+    pub fn reach(&self) -> Result<ActuatorReach, NoAnswer> {
+        Ok(self.demand.as_ref().map_err(Clone::clone)?.reach()?)
     }
 
     /// The largest amplitude over the least one that quenches; infinite where nothing needs to be quenched.
     ///
     /// # Errors
     /// Why one of them is unknown.
-    pub fn margin(&self) -> Result<f64, String> {
+    pub fn margin(&self) -> Result<f64, NoAnswer> {
         Ok(self.reach()?.amplitude / self.needed.clone()?)
     }
 
@@ -56,9 +57,9 @@ impl ActuatorAtFrequency {
     ///
     /// # Errors
     /// Why it is unknown.
-    pub fn reached_slip(&self, contact: usize) -> Result<f64, String> {
+    pub fn reached_slip(&self, contact: usize) -> Result<f64, NoAnswer> {
         let slips = self.slips.as_ref().map_err(Clone::clone)?;
-        let slip = slips.get(contact).ok_or("the contact has no slip velocity")?;
+        let slip = slips.get(contact).ok_or(NoAnswer::NoSlipVelocity)?;
         Ok(slip * self.reach()?.amplitude)
     }
 
@@ -334,7 +335,7 @@ fn resonances(
 
 #[cfg(test)]
 mod tests {
-    use super::super::demand::{LimitUse, SignalSize};
+    use super::super::demand::{LimitUse, SignalSize, UnknownDemand};
     use super::*;
 
     const NOTHING: SignalSize = SignalSize { peak: 0.0, root_mean_square: 0.0, peak_to_peak: 0.0 };
@@ -343,7 +344,7 @@ mod tests {
     fn known(
         frequency: f64,
         allowed: &[(ActuatorLimit, f64)],
-        needed: Result<f64, String>,
+        needed: Result<f64, NoAnswer>,
     ) -> ActuatorAtFrequency {
         let limits = allowed
             .iter()
@@ -352,8 +353,8 @@ mod tests {
         let demand = ActuatorDemand {
             force: NOTHING,
             displacement: NOTHING,
-            voltage: Err("not of interest".to_owned()),
-            current: Err("not of interest".to_owned()),
+            voltage: Err(UnknownDemand::NoLimit),
+            current: Err(UnknownDemand::NoLimit),
             change_of_structure: 0.0,
             samples_per_period: None,
             limits,
@@ -377,7 +378,7 @@ mod tests {
                 (ActuatorLimit::MaximumVoltage, 1.0 / w),
                 (ActuatorLimit::MaximumCurrent, 2.34 / (w * w)),
             ];
-            let needed = if w < 1.7 { Err("none quenches".to_owned()) } else { Ok(0.2) };
+            let needed = if w < 1.7 { Err(NoAnswer::NeverQuiet) } else { Ok(0.2) };
             known(w, &allowed, needed)
         };
         let found = coverage(sampled(&at), &at);

@@ -1,5 +1,7 @@
 //! What a dither demands of an actuator.
 
+use std::fmt;
+
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 /// The size of a periodic signal.
@@ -85,13 +87,79 @@ impl ActuatorLimit {
     }
 }
 
+/// Why a number of what a dither demands of an actuator is unknown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum UnknownDemand {
+    /// A key of the actuator is not given.
+    NotGiven(&'static str),
+    /// The largest voltage or the capacitance of a piezo stack, which its current needs, is not given.
+    NoCurrent,
+    /// The current jumps, which an inductance does not allow.
+    CurrentJumps,
+    /// The voltage jumps, which a capacitance does not allow.
+    VoltageJumps,
+    /// The file of a measured actuator has no column with this name.
+    NoColumn(&'static str),
+    /// It was measured with a sine.
+    NotSine,
+    /// The frequency is outside of those at which it was measured.
+    OutsideMeasured,
+    /// The actuator does not have this limit.
+    LimitNotGiven(ActuatorLimit),
+    /// The actuator has no limit.
+    NoLimit,
+    /// A limit allows no dither of this frequency, however small.
+    NoDither(ActuatorLimit),
+    /// How far a limit is used is unknown.
+    OfLimit {
+        /// The limit.
+        limit: ActuatorLimit,
+        /// Why.
+        why: Box<Self>,
+    },
+}
+
+impl UnknownDemand {
+    fn of_limit(self, limit: ActuatorLimit) -> Self {
+        Self::OfLimit { limit, why: Box::new(self) }
+    }
+}
+
+impl fmt::Display for UnknownDemand {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotGiven(key) => write!(f, "{key} is not given"),
+            Self::NoCurrent => f.write_str("maximum_voltage and capacitance are needed for it"),
+            Self::CurrentJumps => {
+                f.write_str("the current jumps, which needs an unlimited voltage")
+            }
+            Self::VoltageJumps => {
+                f.write_str("the voltage jumps, which needs an unlimited current")
+            }
+            Self::NoColumn(name) => write!(f, "the file has no column {name}"),
+            Self::NotSine => f.write_str("a measured frequency response holds for a sine"),
+            Self::OutsideMeasured => {
+                f.write_str("the frequency is outside the measured frequency response")
+            }
+            Self::LimitNotGiven(limit) => write!(f, "the actuator has no {}", limit.name()),
+            Self::NoLimit => f.write_str("the actuator has no limit"),
+            Self::NoDither(limit) => {
+                write!(f, "{} allows no dither of this frequency", limit.path())
+            }
+            Self::OfLimit { limit, why } => write!(f, "{}: {why}", limit.name()),
+        }
+    }
+}
+
+impl std::error::Error for UnknownDemand {}
+
 /// How far a limit is used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitUse {
     /// The limit.
     pub limit: ActuatorLimit,
     /// The share of the rated value: at most 1 where the limit is kept; or why it is unknown.
-    pub used: Result<f64, String>,
+    pub used: Result<f64, UnknownDemand>,
 }
 
 /// What an actuator must give for a dither.
@@ -102,9 +170,9 @@ pub struct ActuatorDemand {
     /// Displacement of the driven point.
     pub displacement: SignalSize,
     /// Voltage about its mean in volts, or why it is unknown.
-    pub voltage: Result<SignalSize, String>,
+    pub voltage: Result<SignalSize, UnknownDemand>,
     /// Current about its mean in amperes, or why it is unknown.
-    pub current: Result<SignalSize, String>,
+    pub current: Result<SignalSize, UnknownDemand>,
     /// Ratio of its own spring or mass to those of the structure at the driven point, which is judged without them.
     pub change_of_structure: f64,
     /// Samples of the controller in a period of the dither.
@@ -127,19 +195,17 @@ impl ActuatorDemand {
     ///
     /// # Errors
     /// Why it is unknown.
-    pub fn used(&self, limit: ActuatorLimit) -> Result<f64, String> {
+    pub fn used(&self, limit: ActuatorLimit) -> Result<f64, UnknownDemand> {
         let known = self.limits.iter().find(|known| known.limit == limit);
-        known.map_or_else(
-            || Err(format!("the actuator has no {}", limit.name())),
-            |known| known.used.clone(),
-        )
+        known.map_or_else(|| Err(UnknownDemand::LimitNotGiven(limit)), |known| known.used.clone())
     }
 
     /// The demand of the same dither with an amplitude instead of 1.
     #[must_use]
     pub fn at(&self, amplitude: f64) -> Self {
         let factor = amplitude.abs();
-        let sized = |size: &Result<SignalSize, String>| size.clone().map(|size| size.times(factor));
+        let sized =
+            |size: &Result<SignalSize, UnknownDemand>| size.clone().map(|size| size.times(factor));
         let limits = self.limits.iter().map(|known| LimitUse {
             limit: known.limit,
             used: known.used.clone().map(|used| match known.limit {
@@ -163,15 +229,15 @@ impl ActuatorDemand {
     ///
     /// # Errors
     /// Why the use of a limit is unknown.
-    pub fn tightest(&self) -> Result<(ActuatorLimit, f64), String> {
+    pub fn tightest(&self) -> Result<(ActuatorLimit, f64), UnknownDemand> {
         let mut most: Option<(ActuatorLimit, f64)> = None;
         for LimitUse { limit, used } in &self.limits {
-            let used = used.clone().map_err(|why| format!("{}: {why}", limit.name()))?;
+            let used = used.clone().map_err(|why| why.of_limit(*limit))?;
             if most.is_none_or(|(_, known)| used > known) {
                 most = Some((*limit, used));
             }
         }
-        most.ok_or_else(|| "the actuator has no limit".to_owned())
+        most.ok_or(UnknownDemand::NoLimit)
     }
 
     /// The largest amplitude that keeps a limit, where this is the demand of unit amplitude; of a sample rate 0 or infinity, as the
@@ -179,8 +245,8 @@ impl ActuatorDemand {
     ///
     /// # Errors
     /// Why the use of the limit is unknown.
-    pub fn allowed(&self, limit: ActuatorLimit) -> Result<f64, String> {
-        let used = self.used(limit).map_err(|why| format!("{}: {why}", limit.name()))?;
+    pub fn allowed(&self, limit: ActuatorLimit) -> Result<f64, UnknownDemand> {
+        let used = self.used(limit).map_err(|why| why.of_limit(limit))?;
         Ok(match limit {
             ActuatorLimit::SampleRate if used > 1.0 => 0.0,
             ActuatorLimit::SampleRate => f64::INFINITY,
@@ -192,7 +258,7 @@ impl ActuatorDemand {
     ///
     /// # Errors
     /// Why the use of a limit is unknown.
-    pub fn reach(&self) -> Result<ActuatorReach, String> {
+    pub fn reach(&self) -> Result<ActuatorReach, UnknownDemand> {
         let mut least: Option<ActuatorReach> = None;
         for LimitUse { limit, .. } in &self.limits {
             let amplitude = self.allowed(*limit)?;
@@ -201,7 +267,7 @@ impl ActuatorDemand {
                 least = Some(ActuatorReach { amplitude, limit: *limit });
             }
         }
-        least.ok_or_else(|| "the actuator has no limit".to_owned())
+        least.ok_or(UnknownDemand::NoLimit)
     }
 }
 
@@ -209,7 +275,7 @@ impl ActuatorDemand {
 pub(super) fn share(
     limit: ActuatorLimit,
     rated: Option<f64>,
-    size: &Result<SignalSize, String>,
+    size: &Result<SignalSize, UnknownDemand>,
     of: fn(SignalSize) -> f64,
 ) -> Option<LimitUse> {
     let rated = rated?;

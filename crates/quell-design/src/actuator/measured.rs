@@ -6,7 +6,7 @@
 use quell_linear::driven_point::{DrivenPoint, PointOutput};
 use quell_model::Waveform;
 
-use super::demand::{ActuatorDemand, ActuatorLimit, LimitUse, SignalSize, share};
+use super::demand::{ActuatorDemand, ActuatorLimit, LimitUse, SignalSize, UnknownDemand, share};
 
 /// A measured actuator.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,8 +44,8 @@ impl MeasuredActuator {
         let outputs = point.outputs(&[PointOutput::FORCE, PointOutput::DISPLACEMENT]);
         let force = SignalSize::of(&outputs[0], 1.0);
         let known = self.place(point);
-        let per = |series: &Option<Vec<f64>>, name: &str| {
-            let series = series.as_ref().ok_or_else(|| format!("the file has no column {name}"))?;
+        let per = |series: &Option<Vec<f64>>, name: &'static str| {
+            let series = series.as_ref().ok_or(UnknownDemand::NoColumn(name))?;
             let (place, share) = known.clone()?;
             let next = (place + 1).min(series.len() - 1);
             Ok(force.times((series[place] + share * (series[next] - series[place])).recip()))
@@ -78,14 +78,14 @@ impl MeasuredActuator {
     }
 
     /// The interval of a frequency and the share of it that lies below.
-    fn place(&self, point: &DrivenPoint<'_>) -> Result<(usize, f64), String> {
+    fn place(&self, point: &DrivenPoint<'_>) -> Result<(usize, f64), UnknownDemand> {
         if *point.waveform() != Waveform::Sine {
-            return Err("a measured frequency response holds for a sine".to_owned());
+            return Err(UnknownDemand::NotSine);
         }
         let frequency = point.frequency();
         let within = |(first, last): (&f64, &f64)| *first <= frequency && frequency <= *last;
         if !self.frequencies.first().zip(self.frequencies.last()).is_some_and(within) {
-            return Err("the frequency is outside the measured frequency response".to_owned());
+            return Err(UnknownDemand::OutsideMeasured);
         }
         let place = self.frequencies.partition_point(|known| *known <= frequency) - 1;
         let Some(next) = self.frequencies.get(place + 1) else { return Ok((place, 0.0)) };

@@ -24,7 +24,9 @@ pub use coverage::{
     ActuatorAtFrequency, ActuatorCoverage, AtFrequency, BindingBand, DitherResonance,
     SufficientBand, coverage,
 };
-pub use demand::{ActuatorDemand, ActuatorLimit, ActuatorReach, LimitUse, SignalSize};
+pub use demand::{
+    ActuatorDemand, ActuatorLimit, ActuatorReach, LimitUse, SignalSize, UnknownDemand,
+};
 pub use measured::MeasuredActuator;
 pub use piezo::PiezoStack;
 

@@ -5,7 +5,7 @@
 
 use quell_linear::driven_point::{DrivenPoint, PointOutput};
 
-use super::demand::{ActuatorDemand, ActuatorLimit, SignalSize, share};
+use super::demand::{ActuatorDemand, ActuatorLimit, SignalSize, UnknownDemand, share};
 
 /// A jump of a voltage is larger than this share of its range.
 const JUMP: f64 = 1e-9;
@@ -49,18 +49,17 @@ impl PiezoStack {
         let outputs = point.outputs(&[own, PointOutput::DISPLACEMENT]);
         let force = SignalSize::of(&outputs[0], 1.0);
         let volts = self.maximum_voltage.map(|most| most / self.blocked_force);
-        let voltage = volts
-            .map(|volts| force.times(volts))
-            .ok_or_else(|| "maximum_voltage is not given".to_owned());
+        let voltage =
+            volts.map(|volts| force.times(volts)).ok_or(UnknownDemand::NotGiven("maximum_voltage"));
         let current = match (volts, self.capacitance) {
             (Some(_), Some(_)) if outputs[0].largest_jump() > JUMP * force.peak_to_peak => {
-                Err("the voltage jumps, which needs an unlimited current".to_owned())
+                Err(UnknownDemand::VoltageJumps)
             }
             (Some(volts), Some(capacitance)) => {
                 let rate = capacitance * volts * point.frequency();
                 Ok(SignalSize::of(&outputs[0].derivative(), rate))
             }
-            _ => Err("maximum_voltage and capacitance are needed for it".to_owned()),
+            _ => Err(UnknownDemand::NoCurrent),
         };
         let range = |size: SignalSize| size.peak_to_peak;
         let by_force = self.maximum_voltage.is_none().then_some(self.blocked_force);

@@ -58,7 +58,7 @@ pub use law::AtlasLaw;
 pub use node::NoAtlasNode;
 pub use point::{AtlasPoint, AtlasRange, OutsideAtlas, RANGE};
 pub use table::{AtlasSurface, AtlasTable};
-pub use text::AtlasTextError;
+pub use text::{AtlasExpected, AtlasTextError};
 
 /// The waveforms of the atlas.
 pub const WAVEFORMS: [Waveform; 3] = [Waveform::Sine, Waveform::Triangle, Waveform::Square];

@@ -170,9 +170,7 @@ fn measured(belt: &Belt, amplitude: f64, orbit: &Orbit) -> Option<SlippingRespon
 /// The amplitude at which the branch of the base response leaves slip.
 fn by_continuation(point: &AtlasPoint, corner: f64) -> Option<f64> {
     let belt = point.belt(0.0).ok()?;
-    let at = |values: &[f64]| {
-        belt.with_amplitude(0, values[0]).map(|belt| belt.system()).map_err(|why| why.to_string())
-    };
+    let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0])?.system());
     let branch = branch_thresholds(&at, (0.0, LIMIT * corner), STEPS, None).ok()?;
     let leaves = branch.changes.iter().find(|change| {
         let pure = change.below.as_ref().is_some_and(MotionSignature::is_pure_slip);

@@ -14,13 +14,67 @@ use super::{Atlas, AtlasErrors, AtlasLaw, AtlasSurface, AtlasTable};
 /// The first line.
 const HEADING: &str = "quell-atlas 1";
 
+/// What a line of an atlas must be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum AtlasExpected {
+    /// The first line.
+    Heading,
+    /// One of the three kinds of line, or a value.
+    KnownLine,
+    /// A number of nodes.
+    Nodes,
+    /// A number of points.
+    Points,
+    /// A finite number.
+    Number,
+    /// A law.
+    Law,
+    /// A waveform.
+    Waveform,
+    /// A surface.
+    Surface,
+    /// A table after its axes.
+    TableAfterAxes,
+    /// A table before its values.
+    TableBeforeValues,
+    /// Every value of a table before this line.
+    Values {
+        /// The table: law, waveform and surface.
+        table: String,
+        /// Number of nodes of its axes.
+        wanted: usize,
+        /// Number of its values.
+        found: usize,
+    },
+}
+
+impl std::fmt::Display for AtlasExpected {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Heading => HEADING,
+            Self::KnownLine => "axis, table or error",
+            Self::Nodes => "a number of nodes above 0",
+            Self::Points => "a number of points",
+            Self::Number => "a finite number",
+            Self::Law => "a law of the atlas",
+            Self::Waveform => "a waveform of the atlas",
+            Self::Surface => "a surface of the atlas",
+            Self::TableAfterAxes => "a table after its axes",
+            Self::TableBeforeValues => "a table before its values",
+            Self::Values { table, wanted, found } => {
+                return write!(f, "{wanted} values of {table} before this line, not {found}");
+            }
+        })
+    }
+}
+
 /// Why a text is no atlas.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AtlasTextError {
     /// The line, from 1.
     pub line: usize,
     /// What is expected there.
-    pub expected: String,
+    pub expected: AtlasExpected,
 }
 
 impl std::fmt::Display for AtlasTextError {
@@ -68,7 +122,7 @@ impl Atlas {
         for (index, line) in text.lines().enumerate() {
             last = index + 1;
             let read = if index == 0 {
-                if line == HEADING { Ok(()) } else { Err(HEADING.to_owned()) }
+                if line == HEADING { Ok(()) } else { Err(AtlasExpected::Heading) }
             } else {
                 reader.read(line)
             };
@@ -87,7 +141,7 @@ struct AtlasReader {
 }
 
 impl AtlasReader {
-    fn read(&mut self, line: &str) -> Result<(), String> {
+    fn read(&mut self, line: &str) -> Result<(), AtlasExpected> {
         if !line.starts_with(|first: char| first.is_ascii_lowercase()) {
             return self.value(line);
         }
@@ -95,7 +149,7 @@ impl AtlasReader {
         match words[..] {
             ["axis", name, low, high, count] => {
                 let count = count.parse().ok().filter(|count| *count > 0);
-                let count = count.ok_or("a number of nodes above 0")?;
+                let count = count.ok_or(AtlasExpected::Nodes)?;
                 self.axes.push(AtlasAxis::new(name, (number(low)?, number(high)?), count));
                 Ok(())
             }
@@ -108,34 +162,34 @@ impl AtlasReader {
                     waveform,
                     surface,
                     band: (number(low)?, number(high)?),
-                    points: points.parse().map_err(|_| "a number of points")?,
+                    points: points.parse().map_err(|_| AtlasExpected::Points)?,
                     quantiles: [number(median)?, number(most)?, number(largest)?],
                 });
                 Ok(())
             }
-            _ => Err("axis, table or error".to_owned()),
+            _ => Err(AtlasExpected::KnownLine),
         }
     }
 
-    fn table(&mut self, law: &str, waveform: &str, surface: &str) -> Result<(), String> {
+    fn table(&mut self, law: &str, waveform: &str, surface: &str) -> Result<(), AtlasExpected> {
         self.whole()?;
         let (law, waveform, surface) = named(law, waveform, surface)?;
         if self.axes != surface.axes(law) {
-            return Err("a table after its axes".to_owned());
+            return Err(AtlasExpected::TableAfterAxes);
         }
         self.axes.clear();
         self.atlas.tables.push(AtlasTable { law, waveform, surface, values: Vec::new() });
         Ok(())
     }
 
-    fn value(&mut self, line: &str) -> Result<(), String> {
-        let table = self.atlas.tables.last_mut().ok_or("a table before its values")?;
+    fn value(&mut self, line: &str) -> Result<(), AtlasExpected> {
+        let table = self.atlas.tables.last_mut().ok_or(AtlasExpected::TableBeforeValues)?;
         table.values.push(number(line)?);
         Ok(())
     }
 
     /// Whether the last table has all its values.
-    fn whole(&self) -> Result<(), String> {
+    fn whole(&self) -> Result<(), AtlasExpected> {
         let Some(table) = self.atlas.tables.last() else { return Ok(()) };
         let axes = table.surface.axes(table.law);
         let wanted: usize = axes.iter().map(|axis| axis.count).product();
@@ -143,25 +197,25 @@ impl AtlasReader {
             return Ok(());
         }
         let AtlasTable { law, waveform, surface, values } = table;
-        let name = format!("{} {} {}", law.name(), waveform.name(), surface.name());
-        Err(format!("{wanted} values of {name} before this line, not {}", values.len()))
+        let table = format!("{} {} {}", law.name(), waveform.name(), surface.name());
+        Err(AtlasExpected::Values { table, wanted, found: values.len() })
     }
 }
 
-fn number(text: &str) -> Result<f64, String> {
+fn number(text: &str) -> Result<f64, AtlasExpected> {
     let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    number.ok_or_else(|| "a finite number".to_owned())
+    number.ok_or(AtlasExpected::Number)
 }
 
 fn named(
     law: &str,
     waveform: &str,
     surface: &str,
-) -> Result<(AtlasLaw, Waveform, AtlasSurface), String> {
+) -> Result<(AtlasLaw, Waveform, AtlasSurface), AtlasExpected> {
     Ok((
-        AtlasLaw::from_name(law).ok_or("a law of the atlas")?,
-        Waveform::from_name(waveform).ok_or("a waveform of the atlas")?,
-        AtlasSurface::from_name(surface).ok_or("a surface of the atlas")?,
+        AtlasLaw::from_name(law).ok_or(AtlasExpected::Law)?,
+        Waveform::from_name(waveform).ok_or(AtlasExpected::Waveform)?,
+        AtlasSurface::from_name(surface).ok_or(AtlasExpected::Surface)?,
     ))
 }
 

@@ -11,33 +11,7 @@ use super::model::{Estimate, FitModel, Influence};
 use super::projection::{FitSamples, Position};
 use super::search::{FitMinimum, interior, linear_columns};
 use super::statistics::ROUNDING;
-
-/// What is known of the value of a parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Certainty {
-    /// The standard error of the estimate.
-    StandardError(f64),
-    /// The value was given.
-    Fixed,
-    /// The least RSS is on a bound, described in words; linearised errors do not hold there.
-    OnBound(String),
-    /// The RSS does not depend on the parameter at the minimum, or only together with others; the reason in words.
-    Undetermined(String),
-}
-
-impl Certainty {
-    /// The standard error, or why it has none.
-    ///
-    /// # Errors
-    /// The reason in words.
-    pub fn standard_error(&self) -> Result<f64, String> {
-        match self {
-            Self::StandardError(error) => Ok(*error),
-            Self::Fixed => Err("the value is fixed".to_owned()),
-            Self::OnBound(why) | Self::Undetermined(why) => Err(why.clone()),
-        }
-    }
-}
+use crate::NoStandardError;
 
 /// Condition of the scaled JᵀJ above which its inverse has no digit left.
 const SINGULAR: f64 = 1e14;
@@ -71,13 +45,16 @@ impl Covariance {
     }
 }
 
-/// The covariance at a minimum, and what is known of each parameter of the law.
+/// The standard error of each parameter of a law, or why it has none.
+pub(super) type StandardErrors = Vec<Result<f64, NoStandardError>>;
+
+/// The covariance at a minimum, and the standard errors of the parameters of the law.
 pub(super) fn covariance(
     model: &FitModel,
     samples: &FitSamples,
     found: &FitMinimum,
     scale: f64,
-) -> (Covariance, Vec<Certainty>) {
+) -> (Covariance, StandardErrors) {
     let gradient = model.gradient(&found.values, &samples.speeds);
     let current = &found.projected;
     let mut columns = linear_columns(model, samples, current, &gradient);
@@ -117,7 +94,7 @@ pub(super) fn covariance(
             condition: None,
             estimated: Vec::new(),
         };
-        return (none, certainties(model, found, &|_| None));
+        return (none, standard_errors(model, found, &|_| None));
     };
     // Rows in the order of the law.
     let mut rows: Vec<usize> = (0..visible.len()).collect();
@@ -133,10 +110,10 @@ pub(super) fn covariance(
         let row = estimated.iter().position(|own| own.place == place)?;
         Some(matrix[row][row].sqrt())
     };
-    let certainties = certainties(model, found, &error);
+    let standard_errors = standard_errors(model, found, &error);
     let parameters = model.kind().parameters();
     let order = estimated.iter().map(|own| parameters[own.place]).collect();
-    (Covariance { order, matrix, condition, estimated }, certainties)
+    (Covariance { order, matrix, condition, estimated }, standard_errors)
 }
 
 fn norm(column: &[f64]) -> f64 {
@@ -158,48 +135,33 @@ fn condition(matrix: &Matrix) -> Option<f64> {
     (least > 0.0).then(|| largest / least)
 }
 
-/// What is known of each parameter of the law.
-fn certainties(
+/// The standard error of each parameter of the law.
+fn standard_errors(
     model: &FitModel,
     found: &FitMinimum,
     error: &dyn Fn(usize) -> Option<f64>,
-) -> Vec<Certainty> {
+) -> StandardErrors {
     let parameters = model.kind().parameters();
     let named = |place: usize| parameters[place].key();
     let of = |place: usize| {
         if model.estimates()[place] != Estimate::Free {
-            return Certainty::Fixed;
+            return Err(NoStandardError::Fixed);
         }
         let other = model
             .levels()
             .map(|(upper, lower)| named(if place == lower { upper } else { lower }))
             .unwrap_or_default();
         match found.projected.position(place) {
-            Some(Position::Zero) => {
-                return Certainty::OnBound("the least RSS is on the bound 0".to_owned());
-            }
+            Some(Position::Zero) => return Err(NoStandardError::OnZero),
             Some(Position::AtLevel(_) | Position::Tied) => {
-                return Certainty::OnBound(format!(
-                    "the least RSS is on the bound that {other} gives"
-                ));
+                return Err(NoStandardError::OnBoundBy(other));
             }
             _ => {}
         }
         if found.at_limit.contains(&place) {
-            return Certainty::Undetermined(
-                "the RSS is least at the limit of the search, an order of magnitude beyond the data"
-                    .to_owned(),
-            );
+            return Err(NoStandardError::AtLimit);
         }
-        error(place).map_or_else(
-            || {
-                Certainty::Undetermined(
-                    "the RSS does not change with this parameter, or only together with others"
-                        .to_owned(),
-                )
-            },
-            Certainty::StandardError,
-        )
+        error(place).ok_or(NoStandardError::NoChange)
     };
     (0..parameters.len()).map(of).collect()
 }

@@ -7,7 +7,8 @@ use quell_model::parameter::{
 use quell_numerics::order::ascending_by;
 
 use super::statistics::{ROUNDING, robust_deviation, runs};
-use super::{Certainty, FitPoint, LawFit};
+use super::{FitPoint, LawFit};
+use crate::NoStandardError;
 
 /// Residuals above this multiple of the robust standard deviation are outliers.
 const OUTLIER: f64 = 4.0;
@@ -46,7 +47,7 @@ pub enum FitFinding {
         /// Key of the parameter.
         key: &'static str,
         /// The reason.
-        why: String,
+        why: NoStandardError,
     },
     /// The law passes through every point: there is no scatter from which errors would follow.
     Exact,
@@ -125,14 +126,14 @@ fn errors(fit: &LawFit) -> Vec<FitFinding> {
     let mut findings = Vec::new();
     for fitted in &fit.parameters {
         let key = fitted.parameter.key();
-        match &fitted.certainty {
-            Certainty::StandardError(error) if *error > fitted.value.abs() => {
-                findings.push(FitFinding::Uncertain { key, value: fitted.value, error: *error });
+        match fitted.standard_error {
+            Ok(error) if error > fitted.value.abs() => {
+                findings.push(FitFinding::Uncertain { key, value: fitted.value, error });
             }
-            Certainty::OnBound(why) | Certainty::Undetermined(why) => {
-                findings.push(FitFinding::WithoutError { key, why: why.clone() });
+            Err(why) if why.is_of_parameter() => {
+                findings.push(FitFinding::WithoutError { key, why });
             }
-            Certainty::StandardError(_) | Certainty::Fixed => {}
+            Ok(_) | Err(_) => {}
         }
     }
     let covariance = &fit.covariance;

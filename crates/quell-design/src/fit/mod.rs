@@ -22,7 +22,9 @@ use std::fmt;
 use quell_model::friction::{Friction, LawKind};
 use quell_model::parameter::Parameter;
 
-pub use covariance::{Certainty, Covariance};
+use crate::{ExactFit, NoStandardError};
+
+pub use covariance::Covariance;
 pub use diagnosis::{FitFinding, diagnose};
 pub use model::{Estimate, FitModel};
 pub use point::FitPoint;
@@ -79,14 +81,14 @@ pub struct FittedParameter {
     pub parameter: Parameter,
     /// Its value.
     pub value: f64,
-    /// What is known of it.
-    pub certainty: Certainty,
+    /// Its standard error, or why it has none.
+    pub standard_error: Result<f64, NoStandardError>,
 }
 
 impl FittedParameter {
     /// Whether the value was estimated.
     pub fn is_free(&self) -> bool {
-        self.certainty != Certainty::Fixed
+        self.standard_error != Err(NoStandardError::Fixed)
     }
 }
 
@@ -137,9 +139,9 @@ impl LawFit {
     ///
     /// # Errors
     /// The law passes through every point, so that the criterion has no lower bound.
-    pub fn aic(&self) -> Result<f64, String> {
+    pub fn aic(&self) -> Result<f64, ExactFit> {
         if self.is_exact() {
-            return Err("the law passes through every point".to_owned());
+            return Err(ExactFit::Points);
         }
         let count = self.points as f64;
         let likelihood = count * libm::log(self.rss / count)
@@ -211,18 +213,18 @@ pub fn fit(model: &FitModel, points: &[FitPoint]) -> Result<LawFit, Unfitted> {
     let found = search::least(model, &samples).ok_or(Unfitted::Unsolvable)?;
     let curve = model.law(&found.values).ok_or(Unfitted::Unsolvable)?;
     let scale = found.rss / (points.len() - free) as f64;
-    let (covariance, certainties) = covariance::covariance(model, &samples, &found, scale);
+    let (covariance, errors) = covariance::covariance(model, &samples, &found, scale);
     let parameters = model
         .kind()
         .parameters()
         .iter()
         .zip(model.estimates())
-        .zip(found.values.iter().zip(certainties))
+        .zip(found.values.iter().zip(errors))
         .filter(|((_, estimate), _)| **estimate != Estimate::Unused)
-        .map(|((parameter, _), (&value, certainty))| FittedParameter {
+        .map(|((parameter, _), (&value, standard_error))| FittedParameter {
             parameter: *parameter,
             value,
-            certainty,
+            standard_error,
         })
         .collect();
     Ok(LawFit {

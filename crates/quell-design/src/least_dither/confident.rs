@@ -14,6 +14,7 @@ use super::quiet::QuietAmplitudes;
 use super::search::{Judged, grid};
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
 use super::{DesignPoint, DesignProblem};
+use crate::NoAnswer;
 use crate::probability::binomial_interval;
 
 /// First step over the box by averaging, and the last one, as shares of its ranges.
@@ -103,7 +104,7 @@ impl DesignProblem<'_> {
         amplitude: f64,
     ) -> bool {
         let quiet = |point: Vec<f64>| {
-            let set: Result<QuietAmplitudes, String> = (sample.averaged)(&point, self.amplitude);
+            let set: Result<QuietAmplitudes, NoAnswer> = (sample.averaged)(&point, self.amplitude);
             set.is_ok_and(|set| set.contains(amplitude))
         };
         self.points_near(design).into_iter().all(quiet)

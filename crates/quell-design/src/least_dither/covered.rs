@@ -4,6 +4,8 @@
 //! Averaging ranks dithers by the length of that part: on a grid over the box first, then with ends of their own, so that the best
 //! amplitude does not depend on the points of the grid. Exact responses then decide ([`super::served_part`]).
 
+use std::fmt;
+
 use quell_numerics::order::{ascending, descending_by};
 use quell_numerics::roots::{Closeness, minimise};
 
@@ -14,6 +16,7 @@ use super::quiet::QuietAmplitudes;
 use super::search::grid;
 use super::served_part::ServedPart;
 use super::{DesignProblem, LimitedQuantity, OperatingPoint};
+use crate::NoAnswer;
 use crate::tasks::answers;
 
 /// Points of the box along its coordinate, amplitudes that are tried, and choices of each other design variable.
@@ -27,17 +30,48 @@ const HALVINGS: usize = 30;
 /// Choices of the dither that exact responses judge, those of averaging.
 const JUDGED: usize = 2;
 
+/// Why no part of a box is known that one dither serves.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoCoveredBox {
+    /// The box is one point.
+    OnePoint,
+    /// It has several coordinates.
+    SeveralCoordinates,
+    /// A search between its points failed.
+    Failed(NoAnswer),
+    /// No dither that was judged is quiet and keeps every limit in a part of it.
+    NothingServed,
+}
+
+impl fmt::Display for NoCoveredBox {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OnePoint => f.write_str("the study has one operating point"),
+            Self::SeveralCoordinates => {
+                f.write_str("only for a box of one coordinate is the largest part searched")
+            }
+            Self::Failed(why) => why.fmt(f),
+            Self::NothingServed => f.write_str(
+                "no dither that was judged by exact responses is quiet and keeps every limit in a part of the range",
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoCoveredBox {}
+
 /// The largest part of a box of one coordinate for which one dither suffices, where `none` serves the whole box.
 ///
 /// # Errors
-/// A box of another number of coordinates, or no dither that is quiet in a part of it.
-pub fn covered(problem: DesignProblem<'_>, none: &InfeasibleDesign) -> Result<CoveredBox, String> {
-    let [range] = problem.over else {
-        return Err(match problem.over.len() {
-            0 => "the study has one operating point",
-            _ => "only for a box of one coordinate is the largest part searched",
-        }
-        .to_owned());
+/// [`NoCoveredBox`].
+pub fn covered(
+    problem: DesignProblem<'_>,
+    none: &InfeasibleDesign,
+) -> Result<CoveredBox, NoCoveredBox> {
+    let range = match problem.over {
+        [range] => range,
+        [] => return Err(NoCoveredBox::OnePoint),
+        _ => return Err(NoCoveredBox::SeveralCoordinates),
     };
     let points: Vec<f64> =
         grid(&[*range], [1, POINTS, 2, 2], false).into_iter().flatten().collect();
@@ -62,17 +96,15 @@ pub fn covered(problem: DesignProblem<'_>, none: &InfeasibleDesign) -> Result<Co
     let mut best: Option<CoveredBox> = None;
     let tried = ranked.into_iter().map(|(best, line)| line.refined(best)).chain(of_nearest);
     for tried in tried {
-        let part = ServedPart::new(problem, &tried).largest(*range, &seeds)?;
+        let part = ServedPart::new(problem, &tried).largest(*range, &seeds);
         let longer = |known: &CoveredBox, part: &CoveredBox| part.length() > known.length();
-        if let Some(part) = part
+        if let Some(part) = part.map_err(NoCoveredBox::Failed)?
             && best.as_ref().is_none_or(|known| longer(known, &part))
         {
             best = Some(part);
         }
     }
-    best.ok_or_else(|| {
-        "no dither that was judged by exact responses is quiet and keeps every limit in a part of the range".to_owned()
-    })
+    best.ok_or(NoCoveredBox::NothingServed)
 }
 
 /// The quiet amplitudes by averaging at points of the box, for one choice of the other design variables.
@@ -80,7 +112,7 @@ struct AveragedLine<'a> {
     problem: DesignProblem<'a>,
     others: Vec<f64>,
     points: &'a [f64],
-    sets: Vec<Result<QuietAmplitudes, String>>,
+    sets: Vec<Result<QuietAmplitudes, NoAnswer>>,
 }
 
 /// An amplitude with the length of its part of the box, and the amplitudes next to it that were tried.
@@ -98,7 +130,7 @@ impl<'a> AveragedLine<'a> {
         line
     }
 
-    fn quiet_at(&self, point: f64) -> Result<QuietAmplitudes, String> {
+    fn quiet_at(&self, point: f64) -> Result<QuietAmplitudes, NoAnswer> {
         let at = OperatingPoint { point: &[point], others: &self.others };
         self.problem.plant.averaged(at, self.problem.amplitude)
     }
@@ -106,7 +138,7 @@ impl<'a> AveragedLine<'a> {
     /// Whether an amplitude is quiet and allowed at a point, whose quiet amplitudes are known.
     fn serves(
         &self,
-        set: &Result<QuietAmplitudes, String>,
+        set: &Result<QuietAmplitudes, NoAnswer>,
         (point, amplitude): (f64, f64),
     ) -> bool {
         let at = OperatingPoint { point: &[point], others: &self.others };

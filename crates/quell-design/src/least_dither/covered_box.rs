@@ -1,6 +1,7 @@
 //! A part of a box that one dither serves: what a covered range says, and the choice of its longest run of points.
 
 use super::LimitedQuantity;
+use crate::NoAnswer;
 
 /// The part of a box that one dither serves.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +30,7 @@ pub enum BeyondCovered {
     /// It exceeds a limit.
     Exceeds(LimitedQuantity),
     /// It is unknown whether it is quiet and keeps the limits.
-    Unknown(String),
+    Unknown(NoAnswer),
 }
 
 impl CoveredBox {

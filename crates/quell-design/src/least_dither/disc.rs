@@ -21,13 +21,14 @@ use quell_disc::marginal::{DiscExponent, MarginalValue, exponents, marginal_valu
 use quell_disc::resonance::{Order, Resonance, Tongue, Waves};
 use quell_disc::undithered;
 use quell_linear::growth::Verdict;
-use quell_model::Disc;
 use quell_model::disc::DiscDither;
+use quell_model::{Disc, RefusedNumbers};
 use quell_numerics::order::ascending;
 
 use super::search::grid;
 use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 use crate::actuator::{Actuator, ActuatorDemand};
+use crate::{NoAnswer, NotOfDisc};
 
 /// Steps of a line over amplitudes; intervals in which an exponent may cross are halved.
 const STEPS: u32 = 8;
@@ -39,7 +40,8 @@ const SPEEDS: u32 = 48;
 const OTHER_POINTS: [usize; 4] = [1, 5, 3, 2];
 
 /// A disc at an operating point with an amplitude of the dither that is designed, or why it is no valid disc.
-pub type DiscAtPoint<'a> = dyn Fn(OperatingPoint<'_>, f64) -> Result<Disc, String> + Sync + 'a;
+pub type DiscAtPoint<'a> =
+    dyn Fn(OperatingPoint<'_>, f64) -> Result<Disc, RefusedNumbers> + Sync + 'a;
 
 /// A disc one of whose dithers is designed.
 #[derive(Clone, Copy)]
@@ -48,10 +50,6 @@ pub struct DiscPlant<'a> {
     pub at: &'a DiscAtPoint<'a>,
     /// The coordinate of the box that is the speed of the loads.
     pub speed: Option<usize>,
-}
-
-fn in_words(why: impl std::fmt::Display) -> String {
-    why.to_string()
 }
 
 /// Whether a motion grows by more than its error.
@@ -64,16 +62,16 @@ impl DiscPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<Vec<DiscExponent>, String> {
-        exponents(&(self.at)(at, amplitude)?).map_err(in_words)
+    ) -> Result<Vec<DiscExponent>, NoAnswer> {
+        Ok(exponents(&(self.at)(at, amplitude)?)?)
     }
 
     /// The parts of a line between its marginal values, each with the verdict at its middle.
     fn parts<'l>(
-        line: &'l dyn Fn(f64) -> Result<Vec<DiscExponent>, String>,
+        line: &'l dyn Fn(f64) -> Result<Vec<DiscExponent>, NoAnswer>,
         (from, to): (f64, f64),
         values: &'l [MarginalValue],
-    ) -> impl Iterator<Item = Result<(f64, f64, bool), String>> + 'l {
+    ) -> impl Iterator<Item = Result<(f64, f64, bool), NoAnswer>> + 'l {
         let ends: Vec<f64> = std::iter::once(from)
             .chain(values.iter().map(|marginal| marginal.value))
             .chain([to])
@@ -122,16 +120,14 @@ impl Plant for DiscPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         range: (f64, f64),
-    ) -> Result<QuietAmplitudes, String> {
+    ) -> Result<QuietAmplitudes, NoAnswer> {
         let disc = (self.at)(at, range.1)?;
         let Ok(waves) = Waves::new(&disc) else { return self.exact(at, range) };
         let still = match disc.dither() {
             DiscDither::None | DiscDither::Normal { .. } => disc.undithered(),
-            DiscDither::Tangential { .. } => {
-                disc.undithered().with_friction_times(0.0).map_err(in_words)?
-            }
+            DiscDither::Tangential { .. } => disc.undithered().with_friction_times(0.0)?,
         };
-        let growth = undithered::growth(&still).map_err(in_words)?;
+        let growth = undithered::growth(&still)?;
         if growth.verdict() == Verdict::Unstable {
             return self.exact(at, range);
         }
@@ -139,7 +135,11 @@ impl Plant for DiscPlant<'_> {
         Ok(QuietAmplitudes::of_changes(range, true, end.map(|amplitude| (amplitude, false))))
     }
 
-    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
+    fn exact(
+        &self,
+        at: OperatingPoint<'_>,
+        range: (f64, f64),
+    ) -> Result<QuietAmplitudes, NoAnswer> {
         let (from, to) = range;
         let line = |amplitude: f64| self.exponents(at, amplitude);
         if from >= to {
@@ -163,14 +163,14 @@ impl Plant for DiscPlant<'_> {
         Ok(QuietAmplitudes::of_changes(range, quiet_at_first, changes))
     }
 
-    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String> {
+    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, NoAnswer> {
         let disc = (self.at)(at, amplitude)?;
-        let found = exponents(&disc).map_err(in_words)?;
+        let found = exponents(&disc)?;
         let leading = found
             .iter()
             .max_by(|a, b| a.rate.total_cmp(&b.rate))
-            .ok_or("the disc has no motion")?;
-        let period = dithered::prepared(&disc).map_err(in_words)?.map(|prepared| prepared.period());
+            .ok_or(NoAnswer::NotOfDisc(NotOfDisc::Motion))?;
+        let period = dithered::prepared(&disc)?.map(|prepared| prepared.period());
         Ok(ExactVerdict {
             quiet: !grows(&found),
             multiplier: libm::exp(leading.rate * period.unwrap_or(1.0)),
@@ -178,49 +178,48 @@ impl Plant for DiscPlant<'_> {
         })
     }
 
-    fn least_averaged(&self, _: OperatingPoint<'_>) -> Result<f64, String> {
-        Err("the amplitudes of a disc are judged up to a largest one: its waves grow again at larger ones".to_owned())
+    fn least_averaged(&self, _: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
+        Err(NoAnswer::NotOfDisc(NotOfDisc::LeastAmplitude))
     }
 
-    fn slip_amplitudes(&self, _: OperatingPoint<'_>) -> Result<Vec<f64>, String> {
-        Err("the dither of a disc varies its friction: it adds no slip velocity".to_owned())
+    fn slip_amplitudes(&self, _: OperatingPoint<'_>) -> Result<Vec<f64>, NoAnswer> {
+        Err(NoAnswer::NotOfDisc(NotOfDisc::SlipVelocity))
     }
 
-    fn price(&self, _: OperatingPoint<'_>, _: f64) -> Result<DitherPrice, String> {
-        Err("the dither of a disc varies its friction and moves nothing: it has no stroke, velocity or power".to_owned())
+    fn price(&self, _: OperatingPoint<'_>, _: f64) -> Result<DitherPrice, NoAnswer> {
+        Err(NoAnswer::NotOfDisc(NotOfDisc::Price))
     }
 
-    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         let disc = (self.at)(at, amplitude)?;
         Ok(1.0 - disc.dither().mean_and_amplitude().0)
     }
 
-    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         // The flat disc slides steadily under every dither: the mean is that of the factor on friction.
         self.averaged_loss(at, amplitude)
     }
 
     /// The dither of a disc moves nothing.
-    fn slowness(&self, _: OperatingPoint<'_>) -> Result<f64, String> {
+    fn slowness(&self, _: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
         Ok(0.0)
     }
 
-    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         let disc = (self.at)(at, amplitude)?;
         let DiscDither::Normal { amplitude, .. } = disc.dither() else {
-            return Err("tangential dither leaves the normal load as it is".to_owned());
+            return Err(NoAnswer::NotOfDisc(NotOfDisc::VaryingLoad));
         };
         let left = amplitude.mul_add(disc.waveform().range().0, 1.0);
         let loads = disc.loads().iter().filter_map(|load| load.normal_load);
         loads
             .map(|load| left * load)
             .min_by(f64::total_cmp)
-            .ok_or_else(|| "no load of the disc has a normal_load".to_owned())
+            .ok_or(NoAnswer::NotOfDisc(NotOfDisc::NormalLoad))
     }
 
-    fn demand(&self, _: OperatingPoint<'_>, _: &Actuator) -> Result<ActuatorDemand, String> {
-        Err("an actuator is not described for the dither of a disc, which varies its friction"
-            .to_owned())
+    fn demand(&self, _: OperatingPoint<'_>, _: &Actuator) -> Result<ActuatorDemand, NoAnswer> {
+        Err(NoAnswer::NotOfDisc(NotOfDisc::Actuator))
     }
 
     fn special_points(
@@ -228,7 +227,7 @@ impl Plant for DiscPlant<'_> {
         ranges: &[(f64, f64)],
         others: &[f64],
         largest: f64,
-    ) -> Result<Vec<Vec<f64>>, String> {
+    ) -> Result<Vec<Vec<f64>>, NoAnswer> {
         let Some(speed) = self.speed else { return Ok(Vec::new()) };
         let mut points = Vec::new();
         for point in Self::at_other_coordinates(ranges, speed) {
@@ -247,7 +246,7 @@ impl Plant for DiscPlant<'_> {
         ranges: &[(f64, f64)],
         others: &[f64],
         amplitude: f64,
-    ) -> Result<Vec<Vec<f64>>, String> {
+    ) -> Result<Vec<Vec<f64>>, NoAnswer> {
         let Some(speed) = self.speed else { return Ok(Vec::new()) };
         let mut points = Vec::new();
         let range = ranges[speed];

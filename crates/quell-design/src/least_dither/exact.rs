@@ -7,6 +7,7 @@ use super::no_design::NoDesign;
 use super::search::{AveragedSearch, DesignBasin, DesignPoint, Judged};
 use super::verified::VerifiedPoint;
 use super::{DesignProblem, KEPT, LimitedQuantity, MARGIN, OperatingPoint, ResponseSize};
+use crate::NoAnswer;
 use crate::actuator::ActuatorDemand;
 
 /// A limit binds by averaging if at least this share of it is used.
@@ -31,13 +32,13 @@ pub struct FeasibleDesign {
     pub verified: Vec<VerifiedPoint>,
     /// The amplitude from which the dither is loud again somewhere, above the verified one: `None` where every larger amplitude of the
     /// range is quiet at the points that were judged.
-    pub loud_from: Result<Option<f64>, String>,
+    pub loud_from: Result<Option<f64>, NoAnswer>,
     /// The largest loss of mean friction on the exact responses, with its operating point, or why it is unknown.
-    pub friction_loss: Result<(f64, Vec<f64>), String>,
+    pub friction_loss: Result<(f64, Vec<f64>), NoAnswer>,
     /// The largest size of the observed response on the exact responses, or why it is unknown.
-    pub response: Result<ResponseSize, String>,
+    pub response: Result<ResponseSize, NoAnswer>,
     /// What the verified dither demands of the actuator where a limit is used most, with the operating point, or why it is unknown.
-    pub drive: Result<(ActuatorDemand, Vec<f64>), String>,
+    pub drive: Result<(ActuatorDemand, Vec<f64>), NoAnswer>,
 }
 
 impl FeasibleDesign {
@@ -114,7 +115,7 @@ fn nearest(searched: &AveragedSearch) -> (Option<DesignPoint>, NoDesign) {
         searched.tried.iter().min_by(|a, b| a.use_of_limits().total_cmp(&b.use_of_limits()));
     let Some(point) = point else {
         let why = searched.refused.first().map(|(_, why)| why.clone().into());
-        let nothing = NoDesign::Failed { point: Vec::new(), why: "nothing was tried".to_owned() };
+        let nothing = NoDesign::Failed { point: Vec::new(), why: NoAnswer::NothingTried };
         return (None, why.unwrap_or(nothing));
     };
     (Some(point.clone()), exceeded(point))
@@ -132,7 +133,7 @@ fn exceeded(point: &DesignPoint) -> NoDesign {
             Err(why) => {
                 return NoDesign::Failed {
                     point: point.worst.clone().unwrap_or_default(),
-                    why: format!("{}: {why}", quantity.name()),
+                    why: NoAnswer::OfLimit { limit: quantity.name(), why: Box::new(why.clone()) },
                 };
             }
             Ok(used) if worst.is_none_or(|(_, most)| *used > most) => {
@@ -148,7 +149,7 @@ fn exceeded(point: &DesignPoint) -> NoDesign {
         (_, Err(why)) => {
             NoDesign::Failed { point: point.worst.clone().unwrap_or_default(), why: why.clone() }
         }
-        _ => NoDesign::Failed { point: Vec::new(), why: "no choice keeps every limit".to_owned() },
+        _ => NoDesign::Failed { point: Vec::new(), why: NoAnswer::NothingAllowed },
     }
 }
 

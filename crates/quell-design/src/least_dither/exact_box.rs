@@ -4,6 +4,7 @@ use super::quiet::QuietAmplitudes;
 use super::search::{DesignPoint, box_points};
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, judged, least_from};
 use super::{DesignProblem, DesignStart};
+use crate::NoAnswer;
 use crate::tasks::Tasks;
 
 /// Window of exact thresholds about the amplitude of averaging, as factors.
@@ -21,7 +22,7 @@ const BELOW: f64 = 1e-12;
 
 /// The quiet amplitudes of an operating point in a range, or why they are unknown.
 pub(super) type QuietSet<'a> =
-    dyn Fn(&[f64], (f64, f64)) -> Result<QuietAmplitudes, String> + Sync + 'a;
+    dyn Fn(&[f64], (f64, f64)) -> Result<QuietAmplitudes, NoAnswer> + Sync + 'a;
 
 /// A box of operating points with the amplitudes that are allowed.
 #[derive(Clone, Copy, Debug)]

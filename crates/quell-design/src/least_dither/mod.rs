@@ -29,7 +29,7 @@ mod worst_point;
 
 pub use branch::{AmplitudeBranch, QuietChange};
 pub use confident::{LeastOfSample, LeastQuantile, SampledLeast, SampledQuiet};
-pub use covered::covered;
+pub use covered::{NoCoveredBox, covered};
 pub use covered_box::{BeyondCovered, CoveredBox};
 pub use disc::{DiscAtPoint, DiscPlant};
 pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, design};
@@ -39,11 +39,14 @@ pub use response::ResponseSize;
 pub use scaled::ScaledPlant;
 pub use schedule::ScheduledDither;
 pub use search::{DesignBasin, DesignPoint};
-pub use sensitivity::{LeastAmplitude, LeastAmplitudeSensitivity, SystemOfNumbers};
+pub use sensitivity::{
+    LeastAmplitude, LeastAmplitudeSensitivity, NoLeastSensitivity, SystemOfNumbers,
+};
 pub use system::{SystemAtPoint, SystemPlant, amplitude_branch, averaged_quiet, first_averaged};
 pub use verified::VerifiedPoint;
 pub use worst_point::NoLeast;
 
+use crate::NoAnswer;
 use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};
 use crate::tasks::Tasks;
 
@@ -221,43 +224,44 @@ pub trait Plant {
         &self,
         at: OperatingPoint<'_>,
         range: (f64, f64),
-    ) -> Result<QuietAmplitudes, String>;
+    ) -> Result<QuietAmplitudes, NoAnswer>;
 
     /// The least amplitude that is quiet by averaging at a finite frequency ratio.
     ///
     /// # Errors
     /// Why no amplitude is, or why there is no answer.
-    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String>;
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer>;
 
     /// The amplitudes in a range that are quiet by exact thresholds.
     ///
     /// # Errors
     /// Why there is no answer.
-    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String>;
+    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64))
+    -> Result<QuietAmplitudes, NoAnswer>;
 
     /// The exact verdict about one amplitude.
     ///
     /// # Errors
     /// Why it is unknown.
-    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String>;
+    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, NoAnswer>;
 
     /// The response of the linear structure without friction.
     ///
     /// # Errors
     /// Why it is unknown.
-    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String>;
+    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, NoAnswer>;
 
     /// The share of the mean friction that is lost by averaging.
     ///
     /// # Errors
     /// Why it is unknown.
-    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String>;
+    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer>;
 
     /// The share of the mean friction that is lost on the exact base response.
     ///
     /// # Errors
     /// Why it is unknown.
-    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String>;
+    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer>;
 
     /// The size of the observed response on the exact base response.
     ///
@@ -267,9 +271,9 @@ pub trait Plant {
         &self,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<ResponseSize, String> {
+    ) -> Result<ResponseSize, NoAnswer> {
         let _ = (at, amplitude);
-        Err("the structure has no displacement that is observed".to_owned())
+        Err(NoAnswer::NothingObserved)
     }
 
     /// An estimate of the same without trajectories.
@@ -280,7 +284,7 @@ pub trait Plant {
         &self,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<ResponseSize, String> {
+    ) -> Result<ResponseSize, NoAnswer> {
         self.exact_response(at, amplitude)
     }
 
@@ -289,26 +293,29 @@ pub trait Plant {
     ///
     /// # Errors
     /// Why it is unknown.
-    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, String>;
+    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer>;
 
     /// The smallest normal load under the dither.
     ///
     /// # Errors
     /// Why it is unknown.
-    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String>;
+    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer>;
 
     /// What a dither of unit amplitude demands of an actuator.
     ///
     /// # Errors
     /// Why it is unknown.
-    fn demand(&self, at: OperatingPoint<'_>, actuator: &Actuator)
-    -> Result<ActuatorDemand, String>;
+    fn demand(
+        &self,
+        at: OperatingPoint<'_>,
+        actuator: &Actuator,
+    ) -> Result<ActuatorDemand, NoAnswer>;
 
     /// The largest fast slip velocity of every contact under a dither of unit amplitude.
     ///
     /// # Errors
     /// Why it is unknown.
-    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, String>;
+    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, NoAnswer>;
 
     /// Points of the box that a grid may miss and that may be loud at an amplitude up to the largest one.
     ///
@@ -319,7 +326,7 @@ pub trait Plant {
         ranges: &[(f64, f64)],
         others: &[f64],
         largest: f64,
-    ) -> Result<Vec<Vec<f64>>, String> {
+    ) -> Result<Vec<Vec<f64>>, NoAnswer> {
         let _ = (ranges, others, largest);
         Ok(Vec::new())
     }
@@ -333,7 +340,7 @@ pub trait Plant {
         ranges: &[(f64, f64)],
         others: &[f64],
         amplitude: f64,
-    ) -> Result<Vec<Vec<f64>>, String> {
+    ) -> Result<Vec<Vec<f64>>, NoAnswer> {
         let _ = (ranges, others, amplitude);
         Ok(Vec::new())
     }

@@ -2,6 +2,7 @@
 
 use super::LimitedQuantity;
 use super::worst_point::NoLeast;
+use crate::NoAnswer;
 
 /// Why no dither is allowed.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,14 +28,14 @@ pub enum NoDesign {
         /// The operating point, if it decides.
         point: Option<Vec<f64>>,
         /// Why.
-        why: String,
+        why: NoAnswer,
     },
     /// A point has no answer.
     Failed {
         /// The point.
         point: Vec<f64>,
         /// Why.
-        why: String,
+        why: NoAnswer,
     },
 }
 

@@ -1,5 +1,7 @@
 //! Amplitudes of a dither at which a structure is quiet.
 
+use crate::{AveragingEnds, NoAnswer};
+
 /// An amplitude at which averaged sliding changes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AveragedChange {
@@ -7,7 +9,7 @@ pub(super) struct AveragedChange {
     /// Whether larger amplitudes are quiet.
     pub(super) becomes_quiet: bool,
     /// Why averaging does not describe the contacts there, if it does not.
-    pub(super) fails: Option<&'static str>,
+    pub(super) fails: Option<AveragingEnds>,
 }
 
 /// Amplitudes at which a structure is quiet: disjoint intervals in ascending order, within the range that was searched.
@@ -74,14 +76,10 @@ impl QuietAmplitudes {
     pub(super) fn first_by_averaging(
         quiet_without: bool,
         changes: &[AveragedChange],
-    ) -> Result<(f64, f64), String> {
+    ) -> Result<(f64, f64), NoAnswer> {
         let every = Self::by_averaging((0.0, f64::INFINITY), quiet_without, changes);
         every.intervals.first().copied().ok_or_else(|| {
-            let end = changes.iter().find_map(|change| change.fails);
-            end.map_or_else(
-                || "no amplitude of this frequency quenches by averaging".to_owned(),
-                |fails| format!("no amplitude quenches by averaging before {fails}"),
-            )
+            NoAnswer::NeverQuietByAveraging(changes.iter().find_map(|change| change.fails))
         })
     }
 

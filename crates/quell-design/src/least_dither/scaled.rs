@@ -1,6 +1,7 @@
 //! A structure whose dither is a multiple of the one that is judged: what a dither with a margin costs.
 
 use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes, ResponseSize};
+use crate::NoAnswer;
 use crate::actuator::{Actuator, ActuatorDemand};
 
 /// A structure that is quiet where another one is, under a dither of `factor` times the amplitude that is judged: its price, its
@@ -18,31 +19,35 @@ impl Plant for ScaledPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         range: (f64, f64),
-    ) -> Result<QuietAmplitudes, String> {
+    ) -> Result<QuietAmplitudes, NoAnswer> {
         self.plant.averaged(at, range)
     }
 
-    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
         self.plant.least_averaged(at)
     }
 
-    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
+    fn exact(
+        &self,
+        at: OperatingPoint<'_>,
+        range: (f64, f64),
+    ) -> Result<QuietAmplitudes, NoAnswer> {
         self.plant.exact(at, range)
     }
 
-    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String> {
+    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, NoAnswer> {
         self.plant.verdict(at, self.factor * amplitude)
     }
 
-    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String> {
+    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, NoAnswer> {
         self.plant.price(at, self.factor * amplitude)
     }
 
-    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         self.plant.averaged_loss(at, self.factor * amplitude)
     }
 
-    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         self.plant.exact_loss(at, self.factor * amplitude)
     }
 
@@ -50,7 +55,7 @@ impl Plant for ScaledPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<ResponseSize, String> {
+    ) -> Result<ResponseSize, NoAnswer> {
         self.plant.exact_response(at, self.factor * amplitude)
     }
 
@@ -58,15 +63,15 @@ impl Plant for ScaledPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<ResponseSize, String> {
+    ) -> Result<ResponseSize, NoAnswer> {
         self.plant.averaged_response(at, self.factor * amplitude)
     }
 
-    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
         self.plant.slowness(at)
     }
 
-    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         self.plant.minimum_normal_load(at, self.factor * amplitude)
     }
 
@@ -74,11 +79,11 @@ impl Plant for ScaledPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         actuator: &Actuator,
-    ) -> Result<ActuatorDemand, String> {
+    ) -> Result<ActuatorDemand, NoAnswer> {
         Ok(self.plant.demand(at, actuator)?.at(self.factor))
     }
 
-    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, String> {
+    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, NoAnswer> {
         let unit = self.plant.slip_amplitudes(at)?;
         Ok(unit.into_iter().map(|slip| self.factor * slip).collect())
     }
@@ -88,7 +93,7 @@ impl Plant for ScaledPlant<'_> {
         ranges: &[(f64, f64)],
         others: &[f64],
         largest: f64,
-    ) -> Result<Vec<Vec<f64>>, String> {
+    ) -> Result<Vec<Vec<f64>>, NoAnswer> {
         self.plant.special_points(ranges, others, largest)
     }
 
@@ -97,7 +102,7 @@ impl Plant for ScaledPlant<'_> {
         ranges: &[(f64, f64)],
         others: &[f64],
         amplitude: f64,
-    ) -> Result<Vec<Vec<f64>>, String> {
+    ) -> Result<Vec<Vec<f64>>, NoAnswer> {
         self.plant.loud_points(ranges, others, self.factor * amplitude)
     }
 }

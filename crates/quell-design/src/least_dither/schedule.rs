@@ -1,6 +1,7 @@
 //! The exact least amplitude at single operating points: what a dither that follows the operating point needs.
 
 use super::{DesignObjective, DesignProblem, OperatingPoint};
+use crate::NoAnswer;
 
 /// Window about the amplitude of averaging in which the exact one is sought first, as factors.
 const WINDOW: (f64, f64) = (0.85, 1.15);
@@ -11,9 +12,9 @@ pub struct ScheduledDither {
     /// The operating point.
     pub point: Vec<f64>,
     /// The exact least amplitude there, or why it is unknown.
-    pub amplitude: Result<f64, String>,
+    pub amplitude: Result<f64, NoAnswer>,
     /// The objective there.
-    pub objective: Result<f64, String>,
+    pub objective: Result<f64, NoAnswer>,
 }
 
 impl DesignProblem<'_> {
@@ -27,9 +28,8 @@ impl DesignProblem<'_> {
     }
 
     /// The exact least amplitude at a point: near that of averaging, below which a point is loud, or else in the whole range.
-    fn least_at(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+    fn least_at(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
         let (from, to) = self.amplitude;
-        let none = || "no amplitude of the range is quiet there".to_owned();
         let averaged = self.plant.averaged(at, self.amplitude)?.least_from(from);
         if let Some(averaged) = averaged {
             let (low, high) = ((averaged * WINDOW.0).max(from), (averaged * WINDOW.1).min(to));
@@ -41,11 +41,11 @@ impl DesignProblem<'_> {
                 return Ok(least);
             }
         }
-        self.plant.exact(at, self.amplitude)?.least_from(from).ok_or_else(none)
+        self.plant.exact(at, self.amplitude)?.least_from(from).ok_or(NoAnswer::NeverQuiet)
     }
 
     /// The objective of an amplitude at one operating point.
-    fn objective_at(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn objective_at(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         let price = || self.plant.price(at, amplitude);
         match self.objective {
             DesignObjective::Amplitude => Ok(amplitude),

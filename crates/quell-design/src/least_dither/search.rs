@@ -6,6 +6,7 @@
 use quell_numerics::order::ascending_by;
 
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
+use crate::NoAnswer;
 use crate::actuator::{ActuatorDemand, ActuatorLimit};
 use crate::tasks::answers;
 
@@ -62,13 +63,13 @@ pub struct DesignPoint {
     /// The least amplitude that is quiet in the whole box.
     pub amplitude: f64,
     /// The objective there.
-    pub objective: Result<f64, String>,
+    pub objective: Result<f64, NoAnswer>,
     /// The operating point that decides; `None` where the smallest allowed amplitude is quiet everywhere.
     pub worst: Option<Vec<f64>>,
     /// Every operating point at which a loud set was climbed.
     pub decisive: Vec<Vec<f64>>,
     /// For each limit how far it is used: at most 1 where it is kept.
-    pub used: Vec<(LimitedQuantity, Result<f64, String>)>,
+    pub used: Vec<(LimitedQuantity, Result<f64, NoAnswer>)>,
 }
 
 /// A local minimum of the objective over the design variables, by averaging.
@@ -107,7 +108,7 @@ impl AveragedSearch {
 impl DesignPoint {
     /// How far the tightest limit is used; infinite where a limit cannot be judged.
     pub fn use_of_limits(&self) -> f64 {
-        let one = |used: &Result<f64, String>| used.as_ref().map_or(f64::INFINITY, |used| *used);
+        let one = |used: &Result<f64, NoAnswer>| used.as_ref().map_or(f64::INFINITY, |used| *used);
         self.used.iter().map(|(_, used)| one(used)).fold(0.0, f64::max)
     }
 
@@ -118,7 +119,7 @@ impl DesignPoint {
 
     /// The objective where every limit may be kept: those whose use is an estimate may be exceeded by its error.
     fn may_be_allowed(&self) -> Option<f64> {
-        let kept = |(quantity, used): &(LimitedQuantity, Result<f64, String>)| {
+        let kept = |(quantity, used): &(LimitedQuantity, Result<f64, NoAnswer>)| {
             let most = if quantity.is_of_exact_response() { 1.0 + ESTIMATE } else { 1.0 };
             used.as_ref().is_ok_and(|used| *used <= most)
         };
@@ -167,8 +168,8 @@ impl DesignProblem<'_> {
     fn largest(
         &self,
         worst: Option<&Vec<f64>>,
-        value: impl Fn(&[f64]) -> Result<f64, String> + Sync,
-    ) -> Result<f64, String> {
+        value: impl Fn(&[f64]) -> Result<f64, NoAnswer> + Sync,
+    ) -> Result<f64, NoAnswer> {
         let mut points = grid(self.over, [1, 2, 2, 2], false);
         points.extend(worst.cloned());
         let values = answers(self.tasks, &points, |point| value(point));
@@ -182,7 +183,7 @@ impl DesignProblem<'_> {
         others: &[f64],
         amplitude: f64,
         points: &[Vec<f64>],
-    ) -> Option<Result<f64, String>> {
+    ) -> Option<Result<f64, NoAnswer>> {
         if !quantity.is_of_exact_response() {
             return None;
         }
@@ -199,7 +200,7 @@ impl DesignProblem<'_> {
         (quantity, limit): (LimitedQuantity, f64),
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, NoAnswer> {
         let value = match quantity.of_response() {
             Some(of) => of(self.plant.exact_response(at, amplitude)?),
             None => self.plant.exact_loss(at, amplitude)?,
@@ -215,7 +216,7 @@ impl DesignProblem<'_> {
         others: &[f64],
         amplitude: f64,
         worst: Option<&Vec<f64>>,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, NoAnswer> {
         self.largest(worst, |point| {
             let at = OperatingPoint { point, others };
             match limited.0 {
@@ -233,7 +234,7 @@ impl DesignProblem<'_> {
         (quantity, limit): (LimitedQuantity, f64),
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, NoAnswer> {
         let price = || self.plant.price(at, amplitude);
         let value = match quantity {
             LimitedQuantity::Amplitude => amplitude * (1.0 + LEAST_MARGIN),
@@ -261,8 +262,8 @@ impl DesignProblem<'_> {
         &self,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<ActuatorDemand, String> {
-        let actuator = self.actuator.ok_or("the study has no [actuator]")?;
+    ) -> Result<ActuatorDemand, NoAnswer> {
+        let actuator = self.actuator.ok_or(NoAnswer::NoActuator)?;
         Ok(self.plant.demand(at, actuator)?.at(amplitude))
     }
 
@@ -272,8 +273,8 @@ impl DesignProblem<'_> {
         limit: ActuatorLimit,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<f64, String> {
-        self.demand(at, amplitude)?.used(limit)
+    ) -> Result<f64, NoAnswer> {
+        Ok(self.demand(at, amplitude)?.used(limit)?)
     }
 
     /// What a dither demands of the actuator at the operating point where a limit is used most, among the corners of the box and the
@@ -283,7 +284,7 @@ impl DesignProblem<'_> {
         others: &[f64],
         amplitude: f64,
         worst: Option<&Vec<f64>>,
-    ) -> Result<(ActuatorDemand, Vec<f64>), String> {
+    ) -> Result<(ActuatorDemand, Vec<f64>), NoAnswer> {
         let corners = grid(self.over, [1, 2, 2, 2], false);
         let mut largest: Option<(f64, ActuatorDemand, Vec<f64>)> = None;
         for point in corners.iter().chain(worst) {
@@ -293,9 +294,7 @@ impl DesignProblem<'_> {
                 largest = Some((used, demand, point.clone()));
             }
         }
-        largest
-            .map(|(_, demand, point)| (demand, point))
-            .ok_or_else(|| "the box has no points".to_owned())
+        largest.map(|(_, demand, point)| (demand, point)).ok_or(NoAnswer::EmptyBox)
     }
 
     /// The largest loss of mean friction at the corners of the box and the point that decides, on the exact base responses of the
@@ -305,7 +304,7 @@ impl DesignProblem<'_> {
         others: &[f64],
         amplitude: f64,
         worst: Option<&Vec<f64>>,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, NoAnswer> {
         let verified = self.verified_amplitude(amplitude);
         self.largest(worst, |point| {
             self.plant.exact_loss(OperatingPoint { point, others }, verified)

@@ -4,10 +4,13 @@
 //! point itself may move: its effect is of second order). At a tip, where two thresholds meet inside the box, the tip moves, and the
 //! derivatives are those of the amplitude of the tip: the operating point is determined by the two thresholds together.
 
+use std::fmt;
+
 use quell_dynamics::orbit::{
-    OrbitVerdict, Threshold, ThresholdKind, branch_thresholds, sensitivity_of_threshold,
+    NoOrbit, OrbitVerdict, Threshold, ThresholdKind, branch_thresholds, sensitivity_of_threshold,
 };
-use quell_model::System;
+use quell_model::{RefusedNumbers, System};
+use quell_numerics::continuation::sensitivity::NoSensitivity;
 
 /// Half the window in which the threshold is located again, relative to the amplitude.
 const WINDOW: f64 = 5e-3;
@@ -23,7 +26,8 @@ const MEETS: f64 = 1e-4;
 const ASIDE: f64 = 1e-6;
 
 /// A system at an amplitude, an operating point, and numbers of the structure.
-pub type SystemOfNumbers<'a> = dyn Fn(f64, &[f64], &[f64]) -> Result<System, String> + Sync + 'a;
+pub type SystemOfNumbers<'a> =
+    dyn Fn(f64, &[f64], &[f64]) -> Result<System, RefusedNumbers> + Sync + 'a;
 
 /// A least amplitude whose derivatives are wanted.
 #[derive(Clone, Copy)]
@@ -48,15 +52,43 @@ pub struct LeastAmplitudeSensitivity {
     /// The kind of the other threshold, at a tip.
     pub meets: Option<ThresholdKind>,
     /// The derivative with respect to each number, or why it is unknown.
-    pub derivatives: Vec<Result<f64, String>>,
+    pub derivatives: Vec<Result<f64, NoSensitivity>>,
 }
+
+/// Why a least amplitude has no derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoLeastSensitivity {
+    /// The base response was not followed around the amplitude.
+    NoOrbit(NoOrbit),
+    /// No threshold is at the amplitude.
+    NoThreshold {
+        /// The amplitude.
+        amplitude: f64,
+    },
+    /// The threshold has no derivatives.
+    NoSensitivity(NoSensitivity),
+}
+
+impl fmt::Display for NoLeastSensitivity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoOrbit(why) => why.fmt(f),
+            Self::NoThreshold { amplitude } => {
+                write!(f, "no threshold of the base response is at the amplitude {amplitude}")
+            }
+            Self::NoSensitivity(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoLeastSensitivity {}
 
 impl LeastAmplitude<'_> {
     /// The derivatives with respect to the numbers.
     ///
     /// # Errors
-    /// Why the threshold has none: it was not found, or its equations are singular.
-    pub fn sensitivity(&self) -> Result<LeastAmplitudeSensitivity, String> {
+    /// [`NoLeastSensitivity`].
+    pub fn sensitivity(&self) -> Result<LeastAmplitudeSensitivity, NoLeastSensitivity> {
         let inside = (0..self.point.len()).find(|place| {
             let (low, high) = self.over[*place];
             self.point[*place] > low && self.point[*place] < high
@@ -83,23 +115,21 @@ impl LeastAmplitude<'_> {
     }
 
     /// The thresholds near the amplitude at an operating point.
-    fn thresholds_at(&self, point: &[f64]) -> Result<Vec<Threshold>, String> {
+    fn thresholds_at(&self, point: &[f64]) -> Result<Vec<Threshold>, NoLeastSensitivity> {
         let at = |values: &[f64]| (self.at)(values[0], point, self.numbers);
         let window = (self.amplitude * (1.0 - WINDOW), self.amplitude * (1.0 + WINDOW));
-        let found = branch_thresholds(&at, window, STEPS, None).map_err(|why| why.to_string())?;
-        Ok(found.thresholds)
+        let found = branch_thresholds(&at, window, STEPS, None);
+        Ok(found.map_err(NoLeastSensitivity::NoOrbit)?.thresholds)
     }
 
     /// The threshold nearest to the amplitude at which the base response becomes stable.
-    fn deciding(&self, found: &[Threshold], within: f64) -> Result<usize, String> {
+    fn deciding(&self, found: &[Threshold], within: f64) -> Result<usize, NoLeastSensitivity> {
         let distance = |place: &usize| (found[*place].value - self.amplitude).abs();
         (0..found.len())
             .filter(|place| found[*place].becomes == Some(OrbitVerdict::Stable))
             .filter(|place| distance(place) <= within * self.amplitude)
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .ok_or_else(|| {
-                format!("no threshold of the base response is at the amplitude {}", self.amplitude)
-            })
+            .ok_or(NoLeastSensitivity::NoThreshold { amplitude: self.amplitude })
     }
 
     fn derivatives(
@@ -107,7 +137,7 @@ impl LeastAmplitude<'_> {
         point: &[f64],
         deciding: &Threshold,
         meets: Option<(usize, &Threshold)>,
-    ) -> Result<LeastAmplitudeSensitivity, String> {
+    ) -> Result<LeastAmplitudeSensitivity, NoLeastSensitivity> {
         let mut parameters = vec![deciding.value];
         let mut sizes = vec![deciding.value];
         if let Some((place, _)) = meets {
@@ -130,11 +160,8 @@ impl LeastAmplitude<'_> {
         // Either becomes quiet on one side of a tip: the one of a contact is named first.
         both.sort_by_key(|threshold| threshold.contacts.is_empty());
         let found = sensitivity_of_threshold(&at, &both, &parameters, &sizes);
-        let found = found.map_err(|why| why.to_string())?;
-        let derivatives = found.derivatives.into_iter().map(|rates| match rates {
-            Ok(rates) => Ok(rates[0]),
-            Err(why) => Err(why.to_string()),
-        });
+        let found = found.map_err(NoLeastSensitivity::NoSensitivity)?;
+        let derivatives = found.derivatives.into_iter().map(|rates| Ok(rates?[0]));
         Ok(LeastAmplitudeSensitivity {
             kind: both[0].kind,
             meets: both.get(1).map(|other| other.kind),

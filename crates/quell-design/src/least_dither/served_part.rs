@@ -11,6 +11,7 @@ use super::between_points::Towards;
 use super::covered_box::{BeyondCovered, CoveredBox, Tried, longest_run};
 use super::search::box_points;
 use super::{DesignProblem, DesignStart, KEPT, OperatingPoint};
+use crate::NoAnswer;
 use crate::tasks::answers;
 
 /// Closeness of the ends, as a share of the distance of the points around them, or of the part.
@@ -70,7 +71,7 @@ impl<'a> ServedPart<'a> {
         mut self,
         (low, high): (f64, f64),
         seeds: &[f64],
-    ) -> Result<Option<CoveredBox>, String> {
+    ) -> Result<Option<CoveredBox>, NoAnswer> {
         let Tried { amplitude, others } = self.tried;
         let loud = self.problem.plant.loud_points(self.problem.over, others, *amplitude)?;
         let mut seeds: Vec<f64> = seeds.iter().copied().chain(loud.into_iter().flatten()).collect();

@@ -11,8 +11,8 @@ use quell_linear::driven_point::DrivenPoint;
 use quell_linear::growth::Verdict;
 use quell_linear::input_cost::input_cost;
 use quell_linear::linearised::Linearised;
-use quell_model::System;
 use quell_model::profile::Wave;
+use quell_model::{RefusedNumbers, System};
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
@@ -21,6 +21,7 @@ use super::{
     DesignStart, DitherPrice, ExactVerdict, MARGIN, OperatingPoint, Plant, QuietAmplitudes,
 };
 use crate::actuator::{Actuator, ActuatorDemand};
+use crate::{AveragingEnds, NoAnswer};
 
 /// Steps of the continuation over a range of amplitudes.
 const STEPS: u32 = 8;
@@ -42,7 +43,8 @@ pub(super) const STEPS_OF_A_RUN: u64 = 20_000_000;
 const GROWTH_STEPS: u32 = 8;
 
 /// A system at an operating point with an amplitude of the dither that is designed, or why it is no valid system.
-pub type SystemAtPoint<'a> = dyn Fn(OperatingPoint<'_>, f64) -> Result<System, String> + Sync + 'a;
+pub type SystemAtPoint<'a> =
+    dyn Fn(OperatingPoint<'_>, f64) -> Result<System, RefusedNumbers> + Sync + 'a;
 
 /// A system one of whose dithers is designed, judged by small motions, averaged sliding and then the multipliers of the base response, or
 /// by runs from a start, which must end in step with the dither.
@@ -58,15 +60,11 @@ pub struct SystemPlant<'a> {
     pub start: DesignStart,
 }
 
-fn in_words(why: impl std::fmt::Display) -> String {
-    why.to_string()
-}
-
 impl SystemPlant<'_> {
-    fn wave(&self, system: &System) -> Result<Wave, String> {
+    fn wave(&self, system: &System) -> Result<Wave, NoAnswer> {
         let input = system.inputs.get(self.input);
         let wave = input.and_then(|input| input.profile.waves().first());
-        wave.cloned().ok_or_else(|| "the dither that is designed does not act".to_owned())
+        wave.cloned().ok_or(NoAnswer::DoesNotAct)
     }
 
     /// The system at an operating point over the amplitude, read once where the largest amplitude is valid: then all are.
@@ -74,7 +72,7 @@ impl SystemPlant<'_> {
         &'s self,
         at: OperatingPoint<'s>,
         largest: f64,
-    ) -> Box<dyn Fn(f64) -> Result<System, String> + Sync + 's> {
+    ) -> Box<dyn Fn(f64) -> Result<System, RefusedNumbers> + Sync + 's> {
         match (self.at)(at, largest) {
             Ok(system) if largest > 0.0 => {
                 Box::new(move |amplitude| Ok(system.with_amplitude(self.input, amplitude)))
@@ -88,14 +86,13 @@ impl SystemPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         answer: impl Fn(&DrivenPoint<'_>) -> T,
-    ) -> Result<T, String> {
+    ) -> Result<T, NoAnswer> {
         let system = (self.at)(at, 1.0)?;
-        let sliding = Linearised::new(&system).map_err(in_words)?;
+        let sliding = Linearised::new(&system)?;
         let wave = self.wave(&system)?;
         let target = &system.inputs[self.input].target;
         let point =
-            DrivenPoint::of_input(&system, &sliding, target, &wave.waveform, wave.frequency)
-                .map_err(in_words)?;
+            DrivenPoint::of_input(&system, &sliding, target, &wave.waveform, wave.frequency)?;
         Ok(answer(&point))
     }
 
@@ -104,8 +101,8 @@ impl SystemPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         largest: f64,
-        answer: impl FnOnce(&VariedRun<'_>) -> Result<T, String>,
-    ) -> Result<Option<T>, String> {
+        answer: impl FnOnce(&VariedRun<'_>) -> Result<T, NoAnswer>,
+    ) -> Result<Option<T>, NoAnswer> {
         let over_amplitude = self.over_amplitude(at, largest);
         let system = |values: &[f64]| over_amplitude(values[0]);
         let without = system(&[0.0])?.undithered();
@@ -114,7 +111,7 @@ impl SystemPlant<'_> {
                 Ok(state) => state,
                 // Where steady sliding is stable no limit cycle is needed for a design.
                 Err(_) if sliding_verdict(&without)? == Verdict::Stable => return Ok(None),
-                Err(why) => return Err(format!("the limit cycle without dither: {why}")),
+                Err(why) => return Err(NoAnswer::NoSqueal(why)),
             },
             DesignStart::Local | DesignStart::Rest => vec![0.0; without.state_size()],
         };
@@ -129,12 +126,12 @@ impl SystemPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         (from, to): (f64, f64),
-    ) -> Result<QuietAmplitudes, String> {
+    ) -> Result<QuietAmplitudes, NoAnswer> {
         let stable = self.by_multipliers(at, (from, to))?;
         let found = self.about_runs(at, to, |run| {
             let within = TRIED_WITHIN * (to - from);
             let each = stable.intervals().iter().map(|interval| in_step(run, *interval, within));
-            Ok(each.collect::<Result<Vec<_>, String>>()?.concat())
+            Ok(each.collect::<Result<Vec<_>, NoAnswer>>()?.concat())
         })?;
         Ok(found.map_or(stable, QuietAmplitudes::of_intervals))
     }
@@ -144,15 +141,15 @@ impl SystemPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         range: (f64, f64),
-    ) -> Result<QuietAmplitudes, String> {
+    ) -> Result<QuietAmplitudes, NoAnswer> {
         let system = self.over_amplitude(at, range.1);
-        let found = amplitude_branch(&system, (range.0, range.1 * BEYOND), STEPS);
-        Ok(found.map_err(in_words)?.quiet_within(range))
+        let found = amplitude_branch(&system, (range.0, range.1 * BEYOND), STEPS)?;
+        Ok(found.quiet_within(range))
     }
 
     /// The base response under an amplitude.
-    fn base(system: &System) -> Result<Orbit, String> {
-        base_response(system, GROWTH_STEPS).map_err(in_words)
+    fn base(system: &System) -> Result<Orbit, NoOrbit> {
+        base_response(system, GROWTH_STEPS)
     }
 }
 
@@ -162,7 +159,7 @@ fn in_step(
     run: &VariedRun<'_>,
     (low, high): (f64, f64),
     within: f64,
-) -> Result<Vec<(f64, f64)>, String> {
+) -> Result<Vec<(f64, f64)>, NoAnswer> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -184,7 +181,7 @@ pub(super) fn quiet_changes(
     run: &VariedRun<'_>,
     range: (f64, f64),
     steps: u32,
-) -> Result<(bool, Vec<(f64, bool)>), String> {
+) -> Result<(bool, Vec<(f64, bool)>), NoAnswer> {
     let outcomes: Vec<(f64, RunOutcome)> =
         values_tried(range, steps).map(|value| (value, run.outcome(value))).collect();
     let quiet = |outcome: &RunOutcome| outcome.is_quiet() == Some(true);
@@ -192,7 +189,7 @@ pub(super) fn quiet_changes(
         && let Some((amplitude, RunOutcome::Unknown(why))) =
             outcomes.iter().find(|(_, outcome)| outcome.is_quiet().is_none())
     {
-        return Err(format!("the run at the amplitude {amplitude}: {why}"));
+        return Err(NoAnswer::NoOutcomeAt { amplitude: *amplitude, why: why.clone() });
     }
     let changes = outcomes.windows(2).filter(|pair| quiet(&pair[0].1) != quiet(&pair[1].1));
     let changes = changes.map(|pair| {
@@ -215,7 +212,7 @@ pub(super) fn quiet_changes(
 /// # Errors
 /// [`NoOrbit`] if there is no base response at the least amplitude.
 pub fn amplitude_branch(
-    at: &dyn Fn(f64) -> Result<System, String>,
+    at: &dyn Fn(f64) -> Result<System, RefusedNumbers>,
     range: (f64, f64),
     steps: u32,
 ) -> Result<AmplitudeBranch, NoOrbit> {
@@ -241,8 +238,8 @@ pub fn averaged_quiet(
 ///
 /// # Errors
 /// Why no amplitude is quiet.
-pub fn first_averaged(system: &System, input: usize) -> Result<(f64, f64), String> {
-    let (quiet_without, changes) = averaged_changes(system, input).map_err(in_words)?;
+pub fn first_averaged(system: &System, input: usize) -> Result<(f64, f64), NoAnswer> {
+    let (quiet_without, changes) = averaged_changes(system, input)?;
     QuietAmplitudes::first_by_averaging(quiet_without, &changes)
 }
 
@@ -260,8 +257,8 @@ fn averaged_changes(
         becomes_quiet: critical.becomes == Becomes::Stable,
         fails: match (critical.contacts_stay_closed, critical.within_laws) {
             (true, true) => None,
-            (true, false) => Some("the slip leaves the range of a friction law"),
-            (false, _) => Some("a contact opens"),
+            (true, false) => Some(AveragingEnds::BeyondLaw),
+            (false, _) => Some(AveragingEnds::Opens),
         },
     });
     Ok((without == Verdict::Stable, changes.collect()))
@@ -272,31 +269,35 @@ impl Plant for SystemPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         range: (f64, f64),
-    ) -> Result<QuietAmplitudes, String> {
+    ) -> Result<QuietAmplitudes, NoAnswer> {
         let system = (self.at)(at, range.1)?;
-        averaged_quiet(&system, self.input, range).map_err(in_words)
+        Ok(averaged_quiet(&system, self.input, range)?)
     }
 
-    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
         let system = (self.at)(at, 1.0)?;
         Ok(first_averaged(&system, self.input)?.0)
     }
 
-    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
+    fn exact(
+        &self,
+        at: OperatingPoint<'_>,
+        range: (f64, f64),
+    ) -> Result<QuietAmplitudes, NoAnswer> {
         if self.start != DesignStart::Local {
             return self.by_runs(at, range);
         }
         self.by_multipliers(at, range)
     }
 
-    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String> {
+    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, NoAnswer> {
         let orbit = Self::base(&(self.at)(at, amplitude)?)?;
         let stable = orbit.verdict() == OrbitVerdict::Stable;
         let quiet = match self.start {
             DesignStart::Local => stable,
             DesignStart::Rest | DesignStart::Squeal => {
                 let outcome = |run: &VariedRun<'_>| match run.outcome(amplitude) {
-                    RunOutcome::Unknown(why) => Err(why),
+                    RunOutcome::Unknown(why) => Err(NoAnswer::NoOutcome(why)),
                     known => Ok(known.is_quiet() == Some(true)),
                 };
                 stable && self.about_runs(at, amplitude, outcome)?.unwrap_or(true)
@@ -305,24 +306,24 @@ impl Plant for SystemPlant<'_> {
         Ok(ExactVerdict { quiet, multiplier: orbit.radius(), growth_rate: None })
     }
 
-    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String> {
+    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, NoAnswer> {
         let system = (self.at)(at, amplitude)?;
-        let sliding = Linearised::new(&system).map_err(in_words)?;
+        let sliding = Linearised::new(&system)?;
         let wave = self.wave(&system)?;
         let target = &system.inputs[self.input].target;
-        let cost = input_cost(&system, &sliding, target, &wave).map_err(in_words)?;
+        let cost = input_cost(&system, &sliding, target, &wave)?;
         Ok(DitherPrice { stroke: cost.stroke, velocity: cost.velocity, power: cost.power })
     }
 
-    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         let system = (self.at)(at, amplitude)?;
-        let prepared = DitheredSystem::new(&system).map_err(in_words)?;
-        let average = prepared.average().map_err(in_words)?;
+        let prepared = DitheredSystem::new(&system)?;
+        let average = prepared.average()?;
         let means = average.contacts.iter().map(|contact| contact.friction);
         largest_loss(prepared.sliding(), means)
     }
 
-    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         let system = (self.at)(at, amplitude)?;
         let orbit = Self::base(&system)?;
         loss_on(&system, (&orbit.state, orbit.period))
@@ -332,7 +333,7 @@ impl Plant for SystemPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<ResponseSize, String> {
+    ) -> Result<ResponseSize, NoAnswer> {
         let system = (self.at)(at, amplitude)?;
         let orbit = Self::base(&system)?;
         response_on(&system, (&orbit.state, orbit.period), self.observe)
@@ -342,29 +343,29 @@ impl Plant for SystemPlant<'_> {
         &self,
         at: OperatingPoint<'_>,
         amplitude: f64,
-    ) -> Result<ResponseSize, String> {
+    ) -> Result<ResponseSize, NoAnswer> {
         linear_response(&(self.at)(at, amplitude)?, self.input, self.observe)
     }
 
-    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
         let system = (self.at)(at, 1.0)?;
         let slowest = system.waves().map(Wave::repetition).fold(f64::INFINITY, f64::min);
         Ok(vibration_frequency(&system).map_or(0.0, |vibration| BAND_END * vibration / slowest))
     }
 
-    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, NoAnswer> {
         let system = (self.at)(at, amplitude)?;
-        let prepared = DitheredSystem::new(&system).map_err(in_words)?;
-        let average = prepared.average().map_err(in_words)?;
+        let prepared = DitheredSystem::new(&system)?;
+        let average = prepared.average()?;
         let least = average.contacts.iter().map(|found| found.normal_load - found.load_amplitude);
-        least.min_by(f64::total_cmp).ok_or_else(|| "the system has no contact".to_owned())
+        least.min_by(f64::total_cmp).ok_or(NoAnswer::NoContact)
     }
 
     fn demand(
         &self,
         at: OperatingPoint<'_>,
         actuator: &Actuator,
-    ) -> Result<ActuatorDemand, String> {
+    ) -> Result<ActuatorDemand, NoAnswer> {
         self.about_point(at, |point| actuator.demand(point))
     }
 
@@ -372,7 +373,7 @@ impl Plant for SystemPlant<'_> {
         clippy::redundant_closure_for_method_calls,
         reason = "the method itself is of a point of one lifetime"
     )]
-    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, String> {
+    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, NoAnswer> {
         self.about_point(at, |point| point.slip_amplitudes())
     }
 }

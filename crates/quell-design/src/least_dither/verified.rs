@@ -9,6 +9,7 @@ use super::{
     DesignObjective, DesignProblem, DesignStart, ExactVerdict, KEPT, LimitedQuantity,
     OperatingPoint, ResponseSize,
 };
+use crate::NoAnswer;
 use crate::tasks::answers;
 
 /// Rounds in which points that fail the verification are added to those that decide.
@@ -77,9 +78,9 @@ impl DesignProblem<'_> {
         &self,
         critical: &DesignPoint,
         verified: f64,
-    ) -> Result<Option<f64>, String> {
+    ) -> Result<Option<f64>, NoAnswer> {
         if self.start != DesignStart::Local {
-            return Err("runs from a start are judged only up to the least amplitude".to_owned());
+            return Err(NoAnswer::BeyondLeast);
         }
         let (_, to) = self.amplitude;
         let mut points = grid(self.over, [1, 2, 2, 2], false);
@@ -107,7 +108,7 @@ impl DesignProblem<'_> {
         &self,
         critical: &DesignPoint,
         amplitude: f64,
-    ) -> Result<(f64, Vec<f64>), String> {
+    ) -> Result<(f64, Vec<f64>), NoAnswer> {
         let wanted = self.objective == DesignObjective::FrictionLoss
             || self.limits.iter().any(|(quantity, _)| *quantity == LimitedQuantity::FrictionLoss);
         // The loss is asked for at every point only where it matters.
@@ -129,7 +130,7 @@ impl DesignProblem<'_> {
                 largest = Some((loss, point));
             }
         }
-        largest.ok_or_else(|| "the box has no points".to_owned())
+        largest.ok_or(NoAnswer::EmptyBox)
     }
 
     /// The limits that exact responses decide.
@@ -139,7 +140,7 @@ impl DesignProblem<'_> {
 
     /// The largest size of the observed response in the box on the exact responses of the verified dither: at every point where a
     /// limit is on it.
-    pub(super) fn exact_response(&self, critical: &DesignPoint) -> Result<ResponseSize, String> {
+    pub(super) fn exact_response(&self, critical: &DesignPoint) -> Result<ResponseSize, NoAnswer> {
         let mut largest = ResponseSize { rms: 0.0, peak: 0.0 };
         let points = self.points_of_response(critical);
         let sizes = answers(self.tasks, &points, |point| {

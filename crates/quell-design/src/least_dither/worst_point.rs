@@ -7,6 +7,7 @@
 //! its way: the search goes on from the top, until no known set is loud there.
 
 use super::quiet::{QuietAmplitudes, least_of_all};
+use crate::NoAnswer;
 use crate::tasks::{Tasks, answers};
 
 /// Loud sets that are climbed at most.
@@ -31,7 +32,7 @@ pub(super) struct BoxSearch<'a> {
 pub(super) type JudgedPoint = (Vec<f64>, QuietAmplitudes);
 
 /// The quiet amplitudes of an operating point, or why they are unknown.
-pub(super) type QuietAt<'a> = dyn Fn(&[f64]) -> Result<QuietAmplitudes, String> + Sync + 'a;
+pub(super) type QuietAt<'a> = dyn Fn(&[f64]) -> Result<QuietAmplitudes, NoAnswer> + Sync + 'a;
 
 /// The least amplitude of a box.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +58,7 @@ pub enum NoLeast {
         /// The point.
         point: Vec<f64>,
         /// Why.
-        why: String,
+        why: NoAnswer,
     },
 }
 

@@ -47,12 +47,12 @@ pub use base_response::BaseResponse;
 pub use basin::{Basin, BasinLabel, BasinsOfAttraction, gather};
 pub use end_of_run::{EndOfRun, NoEnd, end_of_run, orbit_of_run, starts_of_mass};
 pub use measure::{Attractor, AttractorKind, measure};
-pub use outcome::{RunOutcome, outcome_of_run};
+pub use outcome::{NoOutcome, NoStart, RunOutcome, outcome_of_run};
 pub use rotation::{Ratio, Rotation};
 pub use section::StroboscopicSection;
 pub use settings::AttractorSettings;
 pub use settle::{Patience, SettleOutcome, Settled, settle, settle_many};
-pub use starts::{GroupedStarts, JudgedStarts, StartJudge};
+pub use starts::{GroupedStarts, JudgedStarts, StartJudge, UnknownEnd};
 pub use switches::{
     RunSwitch, RunSwitches, SWITCH_CLOSENESS, StartOfRun, TriedValue, VariedRun, values_tried,
 };

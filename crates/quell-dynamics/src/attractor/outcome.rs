@@ -1,6 +1,9 @@
 //! Whether a run ends quiet: the judge of [`end_of_run`](super::end_of_run()), without a record of the motion.
 
-use quell_model::{OneMass, System};
+use std::fmt;
+
+use quell_linear::steady::NoSteadySliding;
+use quell_model::{OneMass, RefusedNumbers, System};
 
 use super::end_of_run::{FreeMotion, NoEnd, free_motion, judged_mass, start_of_mass};
 use super::measure::classified;
@@ -8,6 +11,55 @@ use super::settings::AttractorSettings;
 use super::settle::{Patience, SettleOutcome, settle};
 use crate::orbit::{NoOrbit, settled, sliding_state};
 use crate::simulation::Stalled;
+
+/// Why a run has no state from which it starts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoStart {
+    /// There is no steady sliding.
+    NoSliding(NoSteadySliding),
+    /// The study to which the run belongs has no such state, in its words.
+    OfStudy(String),
+}
+
+impl fmt::Display for NoStart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSliding(why) => why.fmt(f),
+            Self::OfStudy(why) => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for NoStart {}
+
+/// Why the outcome of a run over a parameter is unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoOutcome {
+    /// There is no system at this value.
+    Refused(RefusedNumbers),
+    /// The run has no start.
+    NoStart(NoStart),
+    /// The motion while its dither is ramped up is unknown.
+    NoRamp(NoOrbit),
+    /// The end of the run is unknown.
+    NoEnd(NoEnd),
+    /// No value was tried.
+    NothingTried,
+}
+
+impl fmt::Display for NoOutcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Refused(why) => why.fmt(f),
+            Self::NoStart(why) => why.fmt(f),
+            Self::NoRamp(why) => why.fmt(f),
+            Self::NoEnd(why) => why.fmt(f),
+            Self::NothingTried => f.write_str("no value was tried"),
+        }
+    }
+}
+
+impl std::error::Error for NoOutcome {}
 
 /// How a run ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +70,7 @@ pub enum RunOutcome {
     /// Vibrating.
     Vibrating,
     /// The run cannot be computed, or does not settle.
-    Unknown(String),
+    Unknown(NoOutcome),
 }
 
 impl RunOutcome {

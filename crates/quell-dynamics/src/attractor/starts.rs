@@ -1,5 +1,7 @@
 //! Where many starts of one system end, and which of them on the same motion.
 
+use std::fmt;
+
 use quell_model::{OneMass, System};
 
 use super::basin::{BasinLabel, BasinsOfAttraction, gather};
@@ -9,6 +11,7 @@ use super::end_of_run::{
 use super::settings::AttractorSettings;
 use super::settle::{Patience, Settled, settle_many};
 use super::system_attractor::SystemAttractor;
+use super::unsettled::Unsettled;
 use crate::simulation::Stalled;
 
 /// The judge of many starts of one system: the sections of one mass, or every run by itself.
@@ -29,13 +32,36 @@ pub enum JudgedStarts {
     Each(Vec<Result<EndOfRun, NoEnd>>),
 }
 
+/// Why the motion on which a start ends is unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub enum UnknownEnd {
+    /// A run of one mass had not settled.
+    Unsettled(Unsettled),
+    /// A run of one mass stopped, for this reason.
+    Stalled(&'static str),
+    /// The run by itself has no known end.
+    NoEnd(NoEnd),
+}
+
+impl fmt::Display for UnknownEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unsettled(why) => f.write_str(why.about()),
+            Self::Stalled(why) => f.write_str(why),
+            Self::NoEnd(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for UnknownEnd {}
+
 /// Starts grouped by the motions on which they end.
 #[derive(Clone, Debug, Default)]
 pub struct GroupedStarts {
     /// The motions, with the most periods of the dither that a start took.
     pub motions: Vec<(SystemAttractor, u32)>,
     /// The motion of each start, or why it is unknown.
-    pub ends: Vec<Result<usize, String>>,
+    pub ends: Vec<Result<usize, UnknownEnd>>,
 }
 
 impl<'a> StartJudge<'a> {
@@ -104,8 +130,8 @@ impl<'a> StartJudge<'a> {
         });
         let ends = labels.iter().map(|label| match label {
             BasinLabel::Attractor(place) => Ok(*place),
-            BasinLabel::Unsettled(why) => Err(why.about().to_owned()),
-            BasinLabel::Stalled(stalled) => Err(stalled.why.to_owned()),
+            BasinLabel::Unsettled(why) => Err(UnknownEnd::Unsettled(*why)),
+            BasinLabel::Stalled(stalled) => Err(UnknownEnd::Stalled(stalled.why)),
         });
         Ok(GroupedStarts { motions: motions.collect::<Result<_, NoEnd>>()?, ends: ends.collect() })
     }
@@ -124,8 +150,7 @@ impl GroupedStarts {
             motions[place].1 = motions[place].1.max(periods);
             place
         };
-        let ends =
-            found.into_iter().map(|end| end.map(&mut place_of).map_err(|why| why.to_string()));
+        let ends = found.into_iter().map(|end| end.map(&mut place_of).map_err(UnknownEnd::NoEnd));
         let ends = ends.collect();
         Self { motions, ends }
     }

@@ -4,9 +4,9 @@
 //! continued; where it loses its stability, and runs on both sides confirm it, is the value. Elsewhere, at the border of a basin
 //! of attraction, the interval is halved.
 
-use quell_model::System;
+use quell_model::{RefusedNumbers, System};
 
-use super::outcome::{RunOutcome, outcome_of_run};
+use super::outcome::{NoOutcome, NoStart, RunOutcome, outcome_of_run};
 use crate::orbit::{NoOrbit, OrbitVerdict, ThresholdKind, branch_thresholds, ramped_motion};
 use crate::simulation::within;
 
@@ -41,11 +41,11 @@ pub struct RunSwitches {
     /// Its changes, ascending.
     pub changes: Vec<RunSwitch>,
     /// Values at which the outcome is unknown, and why.
-    pub unknown: Vec<(f64, String)>,
+    pub unknown: Vec<(f64, NoOutcome)>,
 }
 
 /// The state at t = 0 from which a run of a system at a value of the parameter starts, or why it is unknown.
-pub type StartOfRun<'a> = dyn Fn(f64, &System) -> Result<Vec<f64>, String> + Sync + 'a;
+pub type StartOfRun<'a> = dyn Fn(f64, &System) -> Result<Vec<f64>, NoStart> + Sync + 'a;
 
 /// A run over a parameter.
 #[derive(Clone, Copy)]
@@ -55,7 +55,7 @@ pub struct VariedRun<'a> {
     /// Time over which its dither is ramped up; 0 switches it on at once.
     pub ramp: f64,
     /// The system at a value of the parameter.
-    pub at: &'a (dyn Fn(&[f64]) -> Result<System, String> + Sync),
+    pub at: &'a (dyn Fn(&[f64]) -> Result<System, RefusedNumbers> + Sync),
     /// Most integration steps at one value.
     pub most_steps: u64,
 }
@@ -63,15 +63,15 @@ pub struct VariedRun<'a> {
 impl VariedRun<'_> {
     /// The outcome at one value.
     pub fn outcome(&self, value: f64) -> RunOutcome {
-        let settle = || -> Result<RunOutcome, String> {
-            let system = (self.at)(&[value])?;
-            let start = (self.start)(value, &system)?;
+        let settle = || -> Result<RunOutcome, NoOutcome> {
+            let system = (self.at)(&[value]).map_err(NoOutcome::Refused)?;
+            let start = (self.start)(value, &system).map_err(NoOutcome::NoStart)?;
             // Without dither there is nothing to ramp up.
             let start = match ramped_motion(&system, &start, self.ramp) {
                 Err(NoOrbit::NoDither) => start,
-                ramped => ramped.map_err(|why| why.to_string())?,
+                ramped => ramped.map_err(NoOutcome::NoRamp)?,
             };
-            outcome_of_run(&system, &start).map_err(|why| why.to_string())
+            outcome_of_run(&system, &start).map_err(NoOutcome::NoEnd)
         };
         within(self.most_steps, settle).unwrap_or_else(RunOutcome::Unknown)
     }
@@ -170,7 +170,7 @@ impl RunSwitches {
         let differ = known.windows(2).filter(|pair| pair[0].1.is_quiet() != pair[1].1.is_quiet());
         let pairs: Vec<[TriedValue<'_>; 2]> = differ.map(|pair| [pair[0], pair[1]]).collect();
         let changes = change(&pairs);
-        let first = first.unwrap_or_else(|| RunOutcome::Unknown("no value was tried".to_owned()));
+        let first = first.unwrap_or(RunOutcome::Unknown(NoOutcome::NothingTried));
         Self { first, changes, unknown }
     }
 }

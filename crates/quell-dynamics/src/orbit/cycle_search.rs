@@ -1,9 +1,11 @@
 //! Limit cycles of systems without dither, and what was tried to find one.
 
+use std::fmt;
+
 use quell_model::System;
 
 use super::verdict::OrbitVerdict;
-use super::{Orbit, base_response, free_cycle, limit_cycles, sliding_state};
+use super::{NoOrbit, Orbit, base_response, free_cycle, limit_cycles, sliding_state};
 
 /// Velocities of kicked starts, over that of the surface: at 1 the contact moves with it.
 const KICKS: [f64; 3] = [1.0, 0.5, 2.0];
@@ -129,42 +131,71 @@ pub fn usual_starts(system: &System) -> Vec<NamedStart> {
     kicked(system).into_iter().chain([("from rest".to_owned(), rest)]).collect()
 }
 
+/// Why a system without dither has no state from which it squeals.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoSqueal {
+    /// None of its limit cycles, which are all known, is stable.
+    NoStableCycle,
+    /// The only periodic motion that was found is not stable.
+    NotStable(OrbitVerdict),
+    /// No limit cycle was found from these starts, in words.
+    NotFound(Vec<String>),
+}
+
+impl fmt::Display for NoSqueal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("another state: ")?;
+        match self {
+            Self::NoStableCycle => f.write_str("without dither there is no stable limit cycle"),
+            Self::NotStable(verdict) => write!(
+                f,
+                "the only periodic motion without dither that was found is {}",
+                verdict.name()
+            ),
+            Self::NotFound(starts) => f.write_str(&without_cycle_from(starts)),
+        }
+    }
+}
+
+impl std::error::Error for NoSqueal {}
+
 /// A state of the stable limit cycle without dither.
 ///
 /// # Errors
-/// What was tried.
-pub fn squealing_state(system: &System) -> Result<Vec<f64>, String> {
+/// [`NoSqueal`].
+pub fn squealing_state(system: &System) -> Result<Vec<f64>, NoSqueal> {
     let system = system.undithered();
     if let Some(cycles) = limit_cycles(&system) {
         let stable = cycles.into_iter().find(|cycle| cycle.verdict() == OrbitVerdict::Stable);
-        let none = || "another state: without dither there is no stable limit cycle".to_owned();
-        return stable.map(|cycle| cycle.state).ok_or_else(none);
+        return stable.map(|cycle| cycle.state).ok_or(NoSqueal::NoStableCycle);
     }
     let search = search_cycle(&system, usual_starts(&system));
     match search.found {
         Some((cycle, _)) if cycle.verdict() == OrbitVerdict::Stable => Ok(cycle.state),
-        Some((cycle, _)) => {
-            let verdict = cycle.verdict().name();
-            Err(format!(
-                "another state: the only periodic motion without dither that was found is {verdict}"
-            ))
+        Some((cycle, _)) => Err(NoSqueal::NotStable(cycle.verdict())),
+        None => {
+            Err(NoSqueal::NotFound(search.tried.into_iter().map(|tried| tried.start).collect()))
         }
-        None => Err(format!("another state: {}", without_cycle(&search.tried))),
     }
 }
 
 /// The state of the base response at t = 0.
 ///
 /// # Errors
-/// Why it does not exist.
-pub fn base_state(system: &System) -> Result<Vec<f64>, String> {
-    let found = base_response(system, BASE_STEPS);
-    found.map(|orbit| orbit.state).map_err(|why| format!("another state: {why}"))
+/// [`NoOrbit`].
+pub fn base_state(system: &System) -> Result<Vec<f64>, NoOrbit> {
+    base_response(system, BASE_STEPS).map(|orbit| orbit.state)
 }
 
 /// What was tried, in one sentence without its full stop.
 pub fn without_cycle(tried: &[TriedStart]) -> String {
     let starts: Vec<&str> = tried.iter().map(|tried| tried.start.as_str()).collect();
+    without_cycle_from(&starts)
+}
+
+/// The same, of starts in words.
+fn without_cycle_from<S: AsRef<str>>(starts: &[S]) -> String {
+    let starts: Vec<&str> = starts.iter().map(AsRef::as_ref).collect();
     match starts.split_last() {
         None => "no limit cycle was found".to_owned(),
         Some((last, [])) => format!("no limit cycle was found by a run {last}"),

@@ -7,8 +7,8 @@
 use std::fmt;
 
 use quell_linear::pure_slip::period;
-use quell_model::System;
 use quell_model::system::Contact;
+use quell_model::{RefusedNumbers, System};
 use quell_numerics::continuation::{Image, PeriodMap};
 use quell_numerics::cyclic::least_rotation;
 
@@ -154,7 +154,7 @@ const MOST_COMBINED: usize = 3;
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoImage {
     /// The system cannot take these parameters.
-    Invalid(String),
+    Invalid(RefusedNumbers),
     /// The motion cannot be computed.
     Immobile(Immobile),
     /// The run ended early.
@@ -170,7 +170,7 @@ pub enum NoImage {
 impl fmt::Display for NoImage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Invalid(why) => f.write_str(why),
+            Self::Invalid(why) => why.fmt(f),
             Self::Immobile(why) => why.fmt(f),
             Self::Stopped(why) => why.fmt(f),
             Self::NoPeriod => f.write_str("the frequencies of the dithers have no common period"),
@@ -183,7 +183,7 @@ impl fmt::Display for NoImage {
 }
 
 /// A system as a function of parameters.
-pub type SystemAt<'a> = dyn Fn(&[f64]) -> Result<System, String> + 'a;
+pub type SystemAt<'a> = dyn Fn(&[f64]) -> Result<System, RefusedNumbers> + 'a;
 
 /// The period map of a system with parameters.
 pub struct OrbitFamily<'a> {

@@ -50,7 +50,7 @@ pub use cycle::{CycleMapError, FreeEnd, cycles, free_end, keeps_vibrating};
 pub(crate) use cycle::{cycle_reached, verdict_of_sliding};
 pub use cycle_samples::{CycleSamples, SampledContact};
 pub use cycle_search::{
-    BASE_STEPS, CycleSearch, NamedStart, TriedStart, base_state, kicked_by, search_cycle,
+    BASE_STEPS, CycleSearch, NamedStart, NoSqueal, TriedStart, base_state, kicked_by, search_cycle,
     squealing_state, usual_starts, without_cycle,
 };
 pub use family::{MotionSignature, NoImage, OrbitFamily, SystemAt};
@@ -61,7 +61,7 @@ pub use periodic::{NoOrbit, Orbit, base_response, is_on_sliding, near, shortened
 pub use ramp::ramped_motion;
 pub use sensitivity::sensitivity_of_threshold;
 pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};
-pub use sliding::{displaced, sliding_verdict};
+pub use sliding::{NoSlidingVerdict, displaced, sliding_verdict};
 pub use threshold_curve::{
     CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
 };

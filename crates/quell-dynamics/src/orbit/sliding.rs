@@ -1,9 +1,13 @@
 //! Steady sliding without dither: the verdict on it, and how a start on it is displaced.
 
+use std::fmt;
+
 use quell_linear::growth::Verdict;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
+use quell_linear::steady::NoSteadySliding;
 use quell_model::System;
+use quell_numerics::eigen::EigenError;
 
 use super::{is_on_sliding, kicked_by};
 
@@ -20,12 +24,32 @@ pub fn displaced(system: &System, start: &[f64]) -> Vec<f64> {
     kicked_by(system, NUDGE).unwrap_or_else(|| start.to_vec())
 }
 
+/// Why the verdict on steady sliding is unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoSlidingVerdict {
+    /// There is no steady sliding.
+    NoSliding(NoSteadySliding),
+    /// The eigenvalues of its small motions are unknown.
+    Eigenvalues(EigenError),
+}
+
+impl fmt::Display for NoSlidingVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSliding(why) => why.fmt(f),
+            Self::Eigenvalues(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoSlidingVerdict {}
+
 /// The verdict on steady sliding of a system without dither, by its small motions.
 ///
 /// # Errors
-/// Why it is unknown: there is no steady sliding, or its eigenvalues overflow.
-pub fn sliding_verdict(system: &System) -> Result<Verdict, String> {
-    let linear = Linearised::new(system).map_err(|why| why.to_string())?;
-    let growth = spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())?;
-    Ok(growth.verdict())
+/// [`NoSlidingVerdict`].
+pub fn sliding_verdict(system: &System) -> Result<Verdict, NoSlidingVerdict> {
+    let linear = Linearised::new(system).map_err(NoSlidingVerdict::NoSliding)?;
+    let growth = spectrum::growth(&linear, &linear.friction());
+    Ok(growth.map_err(NoSlidingVerdict::Eigenvalues)?.verdict())
 }

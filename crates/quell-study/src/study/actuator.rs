@@ -16,6 +16,7 @@ use serde_json::Value as Json;
 
 use super::reader::Reader;
 use super::vocabulary::{Choice, KeyUnit, Section, join};
+use super::without_units::WithoutUnits;
 
 /// Path of the table.
 const PATH: &str = "actuator";
@@ -215,16 +216,12 @@ impl GivenNumbers<'_, '_> {
             return None;
         };
         let name = self.reader.text("actuator.file", node)?;
-        let file = ActuatorFile::read(self.reader.files(), "actuator.file", &name);
+        let key = "actuator.file";
+        let file = ActuatorFile::read(self.reader.files(), key, &name);
+        let file = self.reader.in_file((key, node), &name, file)?;
+        let series = self.series(&file);
         let [frequencies, per_volt, per_ampere, most] =
-            match file.and_then(|file| self.series(&file)) {
-                Ok(series) => series,
-                Err(why) => {
-                    let key = "actuator.file";
-                    self.reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
-                    return None;
-                }
-            };
+            self.reader.in_file((key, node), &name, series)?;
         let needs = [
             (MAXIMUM_VOLTAGE, per_volt.is_some(), COLUMNS[1].0),
             (MAXIMUM_CURRENT, per_ampere.is_some(), COLUMNS[2].0),
@@ -258,7 +255,7 @@ impl GivenNumbers<'_, '_> {
     }
 
     /// The columns of a file in numbers of the equations.
-    fn series(&self, file: &ActuatorFile) -> Result<[Option<Vec<f64>>; 4], String> {
+    fn series(&self, file: &ActuatorFile) -> Result<[Option<Vec<f64>>; 4], WithoutUnits> {
         let mut series = [const { None }; 4];
         for (place, column) in file.columns.iter().enumerate() {
             let Some(GivenColumn { si, values }) = column else { continue };
@@ -267,9 +264,7 @@ impl GivenNumbers<'_, '_> {
             let units = self.reader.units();
             if *si && !units.take_suffixes() {
                 let (plain, _) = COLUMNS[place];
-                return Err(format!(
-                    "a CSV file with a column {plain}: the study has no units, but {si_name} is in SI"
-                ));
+                return Err(WithoutUnits::Si { plain, si: si_name });
             }
             let unit = match quantity.si_unit() {
                 Some((unit, _)) if *si => KeyUnit::Suffix(unit),

@@ -2,10 +2,13 @@
 //!
 //! A table has knots (`time` and values, or a file of both) or, for drives and loads, an oscillation about the constant value.
 
+use std::fmt;
+
 use quell_input::complaint::{Complaint, Fault};
-use quell_input::data_file::DataFile;
+use quell_input::data_file::{DataFile, Row};
 use quell_input::document::{Node, Table, Value};
 use quell_input::files::WantedFile;
+use quell_input::wrong_file::{WrongFile, WrongTable};
 use quell_model::parameter::course::{OSCILLATION_FREQUENCY, OSCILLATION_PHASE};
 use quell_model::parameter::{Bounds, Parameter};
 use quell_model::profile::{KnotShape, Knots, Profile, Wave};
@@ -18,6 +21,42 @@ use super::vocabulary::{Choice, CourseTable, KeyUnit, Section, join};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of times and values";
+
+/// What is wrong with a file of times and values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum WrongCourse {
+    /// A column of times or of these values is missing.
+    NoColumns {
+        /// The column of values.
+        value: &'static str,
+    },
+    /// The knots are wrong.
+    Knots {
+        /// The line of a wrong knot, from 1.
+        line: Option<usize>,
+        /// What is wrong, by the list of times or values.
+        why: Invalid,
+    },
+}
+
+impl fmt::Display for WrongCourse {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoColumns { value } => {
+                write!(f, "a CSV file with columns time and {value}")
+            }
+            Self::Knots { line, why } => {
+                if let Some(line) = line {
+                    write!(f, "line {line}, ")?;
+                }
+                let list = why.key.split('[').next().unwrap_or_default();
+                write!(f, "{list}: {} must be {}", why.value, why.allowed)
+            }
+        }
+    }
+}
+
+impl std::error::Error for WrongCourse {}
 
 /// What a table over time gives.
 #[derive(Clone, Debug, PartialEq)]
@@ -285,13 +324,8 @@ impl CoursePlace {
             }
         }
         let name = reader.text(&key, node)?;
-        match self.knots_of(reader, &key, &name, shape) {
-            Ok(knots) => Some(Course::Over(knots?)),
-            Err(why) => {
-                reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
-                None
-            }
-        }
+        let knots = self.knots_of(reader, &key, &name, shape);
+        Some(Course::Over(reader.in_file((&key, node), &name, knots)??))
     }
 
     /// The knots of a file; `None` if the scales of the study are wrong.
@@ -301,7 +335,7 @@ impl CoursePlace {
         key: &str,
         name: &str,
         shape: KnotShape,
-    ) -> Result<Option<Knots>, String> {
+    ) -> Result<Option<Knots>, WrongFile<WrongCourse>> {
         let text = reader.files().text(key, name, WantedFile::of(WHAT))?;
         let file = DataFile::new(&text, WHAT)?;
         let CourseTable { value, quantity, bounds, .. } = self.0;
@@ -316,7 +350,7 @@ impl CoursePlace {
         let time = column("time", Quantity::Time);
         let values = column(value, quantity);
         let (Some(time), Some(values)) = (time, values) else {
-            return Err(format!("a CSV file with columns time and {value}"));
+            return Err(WrongFile::Contents(WrongCourse::NoColumns { value }));
         };
         let units = reader.units();
         let read = |(at, name, unit): (usize, String, KeyUnit), quantity, bounds: Bounds| {
@@ -324,9 +358,9 @@ impl CoursePlace {
             let rows = file.rows().iter();
             let given =
                 rows.map(|row| row.number(at, &name, &allowed, |value| bounds.contains(value)));
-            let given: Vec<f64> = given.collect::<Result<_, String>>()?;
+            let given: Vec<f64> = given.collect::<Result<_, WrongTable>>()?;
             let values = given.iter().map(|value| units.in_equations(*value, quantity, unit));
-            Ok::<_, String>((values.collect::<Option<Vec<f64>>>(), given))
+            Ok::<_, WrongTable>((values.collect::<Option<Vec<f64>>>(), given))
         };
         let (times, written_times) = read(time, Quantity::Time, Bounds::FINITE)?;
         let (values, written_values) = read(values, quantity, bounds)?;
@@ -336,9 +370,8 @@ impl CoursePlace {
             let why = self.knots(written_times, written_values, shape).err().unwrap_or(why);
             let place = why.key.split(['[', ']']).nth(1).and_then(|at| at.parse::<usize>().ok());
             let row = place.and_then(|place| file.rows().get(place));
-            let at = row.map_or_else(String::new, |row| format!("{}, ", row.place()));
-            let list = why.key.split('[').next().unwrap_or_default();
-            format!("{at}{list}: {} must be {}", why.value, why.allowed)
+            let line = row.map(Row::line);
+            WrongFile::Contents(WrongCourse::Knots { line, why })
         })?;
         Ok(Some(knots))
     }

@@ -5,7 +5,8 @@
 //! the frequency and with the waveform of the dither ([`quell_design::actuator`]). The structure must be known for it, and the amplitude
 //! is zero until then.
 
-use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
+use quell_design::NoAnswer;
+use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize, UnknownDemand};
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
 use quell_linear::driven_point::DrivenPoint;
@@ -154,7 +155,7 @@ impl DrivenSize {
         &self,
         reader: &mut Reader,
         actuator: Option<&Actuator>,
-        point: Result<DrivenPoint<'_>, String>,
+        point: Result<DrivenPoint<'_>, NoAnswer>,
     ) -> Option<f64> {
         let path = join(&self.prefix, self.key.key);
         let mut wrong = |fault: Fault, allowed: String| {
@@ -163,7 +164,7 @@ impl DrivenSize {
             None
         };
         let actuator = actuator?;
-        let of_unit = point.and_then(|point| self.of_unit(&actuator.demand(&point)));
+        let of_unit = point.and_then(|point| Ok(self.of_unit(&actuator.demand(&point))?));
         match of_unit {
             Ok(of_unit) => {
                 let amplitude = self.value / of_unit;
@@ -178,7 +179,7 @@ impl DrivenSize {
     }
 
     /// The size that belongs to a dither of unit amplitude.
-    fn of_unit(&self, demand: &ActuatorDemand) -> Result<f64, String> {
+    fn of_unit(&self, demand: &ActuatorDemand) -> Result<f64, UnknownDemand> {
         let size = match self.key.signal {
             SizedSignal::Force | SizedSignal::Newtons => return Ok(1.0),
             SizedSignal::Voltage => demand.voltage.clone()?,
@@ -186,10 +187,7 @@ impl DrivenSize {
             SizedSignal::Rated => {
                 let reach = demand.reach()?;
                 if reach.amplitude == 0.0 {
-                    return Err(format!(
-                        "{} allows no dither of this frequency",
-                        reach.limit.path()
-                    ));
+                    return Err(UnknownDemand::NoDither(reach.limit));
                 }
                 return Ok(100.0 / reach.amplitude);
             }

@@ -47,6 +47,7 @@ mod template;
 mod uncertainty;
 pub mod vocabulary;
 mod waveform;
+mod without_units;
 
 pub use address::NumberAddress;
 pub use belt::{BeltSetup, BeltStudy};

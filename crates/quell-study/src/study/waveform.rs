@@ -188,13 +188,8 @@ impl<'a> WavePlace<'a> {
             return None;
         }
         let name = reader.text(&key, node)?;
-        match wave_file::values(reader.files(), &key, &name) {
-            Ok(values) => Some(values),
-            Err(why) => {
-                reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
-                None
-            }
-        }
+        let values = wave_file::values(reader.files(), &key, &name);
+        reader.in_file((&key, node), &name, values)
     }
 
     /// The samples in the study.

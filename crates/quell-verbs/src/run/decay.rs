@@ -125,7 +125,7 @@ pub fn run(path: &Path, request: &DecayRequest) -> Result<FreeDecay, Failure> {
         let by_criterion = criterion(a).total_cmp(&criterion(b));
         by_criterion.then(a.estimates.free.cmp(&b.estimates.free))
     });
-    let criteria: Result<Vec<f64>, String> = fits.iter().map(|fit| fit.estimates.aic()).collect();
+    let criteria: Result<Vec<f64>, _> = fits.iter().map(|fit| fit.estimates.aic()).collect();
     let weights = criteria.ok().map(|criteria| akaike_weights(&criteria));
     Ok(FreeDecay { record, fits, weights })
 }

@@ -231,7 +231,7 @@ pub fn run(path: &Path, request: &FitRequest) -> Result<FrictionFit, Failure> {
     // A law through every point has no criterion, and nothing is better but one with fewer parameters.
     let criterion = |fit: &LawFit| fit.aic().unwrap_or(f64::NEG_INFINITY);
     fits.sort_by(|a, b| criterion(a).total_cmp(&criterion(b)).then(a.free.cmp(&b.free)));
-    let criteria: Result<Vec<f64>, String> = fits.iter().map(LawFit::aic).collect();
+    let criteria: Result<Vec<f64>, _> = fits.iter().map(LawFit::aic).collect();
     let weights = criteria.ok().map(|criteria| akaike_weights(&criteria));
     Ok(FrictionFit { data, points, lines, at_rest, sign, fits, weights, left_out })
 }

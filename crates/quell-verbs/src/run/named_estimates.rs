@@ -1,6 +1,7 @@
 //! Estimates of a fit under the names and in the units in which they are reported.
 
-use quell_design::estimates::{Estimates, NOT_EXPLAINED};
+use quell_design::NoStandardError;
+use quell_design::estimates::Estimates;
 
 /// Correlation of two estimates above which the data determine only a combination of them.
 const CORRELATED: f64 = 0.99;
@@ -35,8 +36,8 @@ impl NamedEstimates {
     ///
     /// # Errors
     /// Why it has none.
-    pub fn error(&self, place: usize) -> Result<f64, String> {
-        let error = self.estimates.errors[place].clone()?;
+    pub fn error(&self, place: usize) -> Result<f64, NoStandardError> {
+        let error = self.estimates.errors[place]?;
         Ok(self.parameters[place].factor.abs() * error)
     }
 
@@ -96,7 +97,7 @@ impl NamedEstimates {
                     quell_model::digits::digits(error, 2)
                 )),
                 // What the model does not explain is said about the whole fit.
-                Err(why) if !why.ends_with("fixed") && why != NOT_EXPLAINED => {
+                Err(why) if why.is_of_parameter() => {
                     found.push(format!("{} has no standard error: {why}", name(place)));
                 }
                 _ => {}

@@ -69,7 +69,9 @@ impl Protocol {
             Self::Sliding => {
                 sliding_state(system).map_err(|why| refused("--from-sliding", why.to_string()))
             }
-            Self::Squeal => squealing_state(system).map_err(|why| refused("--from-squeal", why)),
+            Self::Squeal => {
+                squealing_state(system).map_err(|why| refused("--from-squeal", why.to_string()))
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use quell_design::NoAnswer;
 use quell_design::actuator::ActuatorAtFrequency;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -68,7 +69,7 @@ fn table(found: &ActuatorFound, study: &SystemStudy) -> String {
         "margin",
         "limit"
     );
-    let number = |value: Result<f64, String>| value.map_or_else(|_| "unknown".to_owned(), figure);
+    let number = |value: Result<f64, NoAnswer>| value.map_or_else(|_| "unknown".to_owned(), figure);
     for (what, at) in &found.notable {
         let reach = at.reach();
         let margin = match at.margin() {
@@ -92,7 +93,7 @@ fn columns(found: &ActuatorFound) -> Vec<(String, Quantity, Vec<f64>)> {
     let slip_of = |contact: &str| {
         format!("slip_of_{}", contact.replace(|letter: char| !letter.is_alphanumeric(), "_"))
     };
-    let column = |value: &dyn Fn(&ActuatorAtFrequency) -> Result<f64, String>| -> Vec<f64> {
+    let column = |value: &dyn Fn(&ActuatorAtFrequency) -> Result<f64, NoAnswer>| -> Vec<f64> {
         let points = found.coverage.points.iter();
         points
             .map(|point| value(point).ok().filter(|v| v.is_finite()).unwrap_or(f64::NAN))
@@ -100,7 +101,7 @@ fn columns(found: &ActuatorFound) -> Vec<(String, Quantity, Vec<f64>)> {
     };
     let largest = |point: &ActuatorAtFrequency| Ok(point.reach()?.amplitude);
     let at_largest = |point: &ActuatorAtFrequency| {
-        Ok::<_, String>(point.demand.as_ref().map_err(Clone::clone)?.at(largest(point)?))
+        Ok::<_, NoAnswer>(point.demand.as_ref().map_err(Clone::clone)?.at(largest(point)?))
     };
     let named = |name: &str, quantity, values| (name.to_owned(), quantity, values);
     let mut columns = vec![

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use quell_design::NoStandardError;
 use serde_json::{Map, json};
 
 use super::table::figure;
@@ -19,9 +20,8 @@ pub(super) fn parameters(named: &NamedEstimates, shown: impl Fn(usize) -> bool) 
         let error = named.error(place);
         let mut object = Map::new();
         object.insert("value".to_owned(), named.value(place).into());
-        object.insert("standard_error".to_owned(), error.clone().ok().into());
-        let is_fixed = error.as_ref().is_err_and(|why| why.ends_with("fixed"));
-        object.insert("fixed".to_owned(), is_fixed.into());
+        object.insert("standard_error".to_owned(), error.ok().into());
+        object.insert("fixed".to_owned(), (error == Err(NoStandardError::Fixed)).into());
         inner.measured(&parameter.name, &parameter.unit, object);
         if let Err(why) = error {
             inner.why(&format!("{}.standard_error", parameter.name), why);

@@ -82,7 +82,7 @@ fn sentence(done: &FrictionFit) -> String {
         .filter(|fitted| fitted.is_free())
         .map(|fitted| {
             let quantity = fitted.parameter.quantity;
-            let error = fitted.certainty.standard_error();
+            let error = fitted.standard_error;
             let error = error.map_or_else(
                 |_| String::new(),
                 |error| format!(" ± {}", quell_model::digits::digits(error, 2)),
@@ -118,10 +118,10 @@ fn parameters(done: &FrictionFit, fit: &LawFit) -> Fields {
     let mut inner = Fields::new();
     for fitted in &fit.parameters {
         let key = fitted.parameter.key();
-        let error = fitted.certainty.standard_error();
+        let error = fitted.standard_error;
         let mut object = Map::new();
         object.insert("value".to_owned(), fitted.value.into());
-        object.insert("standard_error".to_owned(), error.clone().ok().into());
+        object.insert("standard_error".to_owned(), error.ok().into());
         object.insert("fixed".to_owned(), (!fitted.is_free()).into());
         inner.measured(key, unit(done, fitted.parameter.quantity), object);
         if let Err(why) = error {
@@ -296,7 +296,7 @@ fn table(done: &FrictionFit) -> String {
     let mut text = String::new();
     let width = best.parameters.iter().map(|one| one.parameter.key().len()).max().unwrap_or(0);
     for fitted in &best.parameters {
-        let known = match fitted.certainty.standard_error() {
+        let known = match fitted.standard_error {
             Ok(error) => format!("± {}", figure(error)),
             Err(why) => format!("({why})"),
         };

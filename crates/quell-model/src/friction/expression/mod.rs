@@ -22,7 +22,6 @@ use super::series::side_by_side;
 use super::{
     BranchSeries, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
 };
-use crate::digits::digits;
 use crate::parameter::{MAXIMUM_VELOCITY, Parameter, STATIC_COEFFICIENT};
 use crate::{Invalid, InvalidValues};
 
@@ -32,6 +31,7 @@ mod proof;
 mod series;
 mod syntax;
 mod tree;
+mod unusable;
 
 pub use number::NumberFormula;
 use program::Program;
@@ -39,6 +39,7 @@ use proof::Formula;
 pub use series::{ExpressionConstants, ExpressionSeries};
 pub use syntax::{LONGEST, SyntaxError, is_name, is_taken};
 use tree::Tree;
+use unusable::UnusableFormula;
 
 /// Path of the formula in a study file.
 pub const FORMULA: &str = "friction.coefficient";
@@ -122,9 +123,9 @@ impl Expression {
             complaints.extend(STATIC_COEFFICIENT.check(level).err());
         }
         let names: Vec<&str> = constants.iter().map(|(name, _)| name.as_str()).collect();
-        let refused = |why: String| Invalid::new(FORMULA, text, why);
+        let refused = |why: UnusableFormula| Invalid::new(FORMULA, text, why.to_string());
         let compiled = syntax::parse(text, &names)
-            .map_err(|error| format!("a valid formula; {error}"))
+            .map_err(UnusableFormula::Syntax)
             .and_then(|tree| Ok((Program::new(&tree, 1.0)?, Program::new(&tree, -1.0)?, tree)));
         let (program, mirrored, tree) = match compiled {
             Ok(programs) => programs,
@@ -157,22 +158,19 @@ impl Expression {
 
     /// The law with all values that are derived from its numbers.
     fn settled(mut self) -> Result<Self, InvalidValues> {
-        let refused =
-            |law: &Self, why: String| InvalidValues::from(Invalid::new(FORMULA, &law.text, why));
+        let refused = |law: &Self, why: UnusableFormula| {
+            InvalidValues::from(Invalid::new(FORMULA, &law.text, why.to_string()))
+        };
         self.constants = self.program.values(&self.named);
         self.proven = Proven::default();
         let (start, slope) = self.at(0.0);
         if !start.is_finite() || !slope.is_finite() {
-            let why = "smooth up to v = 0⁺, with a finite value and slope there; powers of v are smooth only if the \
-                       exponent is an integer written in the formula"
-                .to_owned();
-            return Err(refused(&self, why));
+            return Err(refused(&self, UnusableFormula::NotSmooth));
         }
         self.scale = self.scale_of_variation();
         // Differences of equal terms leave a rounding error relative to the terms.
         if start < -4.0 * f64::EPSILON {
-            let why = format!("≥ 0 at every slip speed; at v = 0⁺ it is {start:.6}");
-            return Err(refused(&self, why));
+            return Err(refused(&self, UnusableFormula::Negative { start }));
         }
         let level = self.given_static.unwrap_or(start);
         // A sum of decimals may miss the level by its rounding.
@@ -273,7 +271,7 @@ impl Expression {
     }
 
     /// Whether the formula on the branch v < 0 is that on v > 0, or its negative.
-    fn same_in_both_directions(&self, mirrored: &Program) -> Result<(), String> {
+    fn same_in_both_directions(&self, mirrored: &Program) -> Result<(), UnusableFormula> {
         let constants = mirrored.values(&self.named);
         let (mut even, mut odd) = (true, true);
         for place in 0..24 {
@@ -288,10 +286,7 @@ impl Expression {
             even &= (above - below).abs() <= close;
             odd &= (above + below).abs() <= close;
             if !even && !odd {
-                let [speed, above, below] = [speed, above, below].map(|value| digits(value, 6));
-                return Err(format!(
-                    "the same in both directions of slip; at v = ±{speed} it is {above} and {below}. Write abs(v) for the slip speed"
-                ));
+                return Err(UnusableFormula::OneSided { speed, above, below });
             }
         }
         Ok(())

@@ -5,6 +5,7 @@
 //! on the value of a constant, so that runs with different constants can share lanes.
 
 use super::tree::{Function, Tree};
+use super::unusable::UnusableFormula;
 
 /// Maximum number of series of a formula.
 pub(super) const MOST_SLOTS: usize = 32;
@@ -104,7 +105,7 @@ impl Program {
     ///
     /// # Errors
     /// A function that is not smooth where it is used, a formula too long.
-    pub(super) fn new(tree: &Tree, sign: f64) -> Result<Self, String> {
+    pub(super) fn new(tree: &Tree, sign: f64) -> Result<Self, UnusableFormula> {
         let mut compiler =
             Compiler { constants: vec![ZERO, ONE], steps: Vec::new(), slots: 1, sign };
         let (terms, offset) = match compiler.part(tree)? {
@@ -116,9 +117,7 @@ impl Program {
         let offset = compiler.constant(offset);
         let Compiler { constants, steps, slots, .. } = compiler;
         if slots > MOST_SLOTS {
-            return Err(format!(
-                "shorter: it needs {slots} series (one per product, quotient or function), and the limit is {MOST_SLOTS}"
-            ));
+            return Err(UnusableFormula::TooLong { slots, most: MOST_SLOTS });
         }
         Ok(Self { constants, steps, output, offset, slots })
     }
@@ -179,7 +178,7 @@ impl Compiler {
         slot
     }
 
-    fn part(&mut self, tree: &Tree) -> Result<FormulaPart, String> {
+    fn part(&mut self, tree: &Tree) -> Result<FormulaPart, UnusableFormula> {
         Ok(match tree {
             Tree::Number(_) | Tree::Constant(_) => FormulaPart::Constant(tree.clone()),
             Tree::Velocity => FormulaPart::Straight(vec![(0, Tree::Number(self.sign))], ZERO),
@@ -287,7 +286,7 @@ impl Compiler {
         }
     }
 
-    fn call(&mut self, function: Function, x: FormulaPart) -> Result<FormulaPart, String> {
+    fn call(&mut self, function: Function, x: FormulaPart) -> Result<FormulaPart, UnusableFormula> {
         if let FormulaPart::Constant(x) = x {
             return Ok(FormulaPart::Constant(Tree::Call(function, Box::new(x))));
         }
@@ -310,7 +309,7 @@ impl Compiler {
 
 impl Compiler {
     /// sech X = 2E/(1 + E²), E = e^(−|X|), which does not overflow for large |X|.
-    fn sech(&mut self, x: FormulaPart) -> Result<FormulaPart, String> {
+    fn sech(&mut self, x: FormulaPart) -> Result<FormulaPart, UnusableFormula> {
         let size = directed(Function::Abs, x)?;
         let decay = self.unary(scaled(size, &Tree::Number(-1.0)), Step::Exp, Function::Exp);
         let square = self.product(decay.clone(), decay.clone());
@@ -320,9 +319,11 @@ impl Compiler {
 }
 
 /// abs and sign of a multiple of v, whose sign is constant on a branch.
-fn directed(function: Function, x: FormulaPart) -> Result<FormulaPart, String> {
+fn directed(function: Function, x: FormulaPart) -> Result<FormulaPart, UnusableFormula> {
     match x {
-        FormulaPart::Straight(terms, offset) if offset == ZERO && terms.len() == 1 && terms[0].0 == 0 => {
+        FormulaPart::Straight(terms, offset)
+            if offset == ZERO && terms.len() == 1 && terms[0].0 == 0 =>
+        {
             let factor = Tree::Call(function, Box::new(terms[0].1.clone()));
             Ok(if function == Function::Abs {
                 FormulaPart::Straight(vec![(0, factor)], ZERO)
@@ -330,9 +331,7 @@ fn directed(function: Function, x: FormulaPart) -> Result<FormulaPart, String> {
                 FormulaPart::Constant(factor)
             })
         }
-        _ => Err("smooth on each side of v = 0: the argument of abs, sign and sech must be a multiple of v or a constant, \
-                  because any other argument could have a kink elsewhere"
-            .to_owned()),
+        _ => Err(UnusableFormula::Kink),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Modes of a disc: computed, listed, or read from a file; and their shapes at the loads.
 
+use std::fmt;
 use std::sync::Arc;
 
 use quell_disc::plate::PlateMaterial;
@@ -95,14 +96,12 @@ pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option
         return listed(reader, node).map(ModeSource::List);
     }
     let name = reader.text(key, node)?;
-    let parse = |text: &str| together(&disc_modes_file::parse(text)?);
-    match reader.files().parsed(key, &name, disc_modes_file::WANTED, parse) {
-        Ok(listed) => Some(ModeSource::File { name, listed: Listed::clone(&listed) }),
-        Err(why) => {
-            reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
-            None
-        }
-    }
+    let (files, parse) = (reader.files(), disc_modes_file::parse);
+    let lines: Result<Arc<Vec<ModeLine>>, _> =
+        files.parsed(key, &name, disc_modes_file::WANTED, parse);
+    let lines = reader.in_file((key, node), &name, lines)?;
+    let listed = reader.in_file((key, node), &name, together(&lines))?;
+    Some(ModeSource::File { name, listed })
 }
 
 /// `[[disc.mode]]`.
@@ -124,7 +123,8 @@ fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
     match together(&lines) {
         Ok(listed) => Some(listed),
         Err(why) => {
-            let complaint = Complaint::new(Fault::Value, "disc.mode", node.origin, Json::Null, why);
+            let complaint =
+                Complaint::new(Fault::Value, "disc.mode", node.origin, Json::Null, why.to_string());
             reader.complain(complaint);
             None
         }
@@ -163,8 +163,28 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
     })
 }
 
+/// Why modes with their frequencies as given make no list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum MixedModes {
+    /// Frequencies in hertz, and no mode defines the critical speed.
+    NoDiameter,
+    /// Some have ratios and others frequencies in hertz.
+    Units,
+}
+
+impl fmt::Display for MixedModes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NoDiameter => {
+                "modes with at least one nodal diameter, which define the critical speed; otherwise give ratios"
+            }
+            Self::Units => "modes that either all have a ratio or all have a frequency_hz",
+        })
+    }
+}
+
 /// Modes of the lines; frequencies in hertz are measured in the lowest critical speed of the list.
-fn together(lines: &[ModeLine]) -> Result<Listed, String> {
+fn together(lines: &[ModeLine]) -> Result<Listed, MixedModes> {
     let in_hertz = lines.iter().filter(|line| line.ratio.is_none()).count();
     let reference_hz = match in_hertz {
         0 => None,
@@ -173,10 +193,10 @@ fn together(lines: &[ModeLine]) -> Result<Listed, String> {
             let lowest = speeds
                 .filter_map(|line| Some(line.hertz? / line.diameters))
                 .reduce(f64::min)
-                .ok_or("modes with at least one nodal diameter, which define the critical speed; otherwise give ratios")?;
+                .ok_or(MixedModes::NoDiameter)?;
             Some(lowest)
         }
-        _ => return Err("modes that either all have a ratio or all have a frequency_hz".to_owned()),
+        _ => return Err(MixedModes::Units),
     };
     #[expect(
         clippy::cast_possible_truncation,

@@ -112,19 +112,12 @@ fn given<'t>(
         let name = reader.text(&key, node)?;
         let may_be_si = reader.units().take_suffixes();
         let file = reader.files().parsed(&key, &name, sample_file::WANTED, sample_file::parse);
-        return match file.and_then(|file| file.samples(may_be_si)) {
-            Ok((is_si, samples)) => {
-                let unit = if is_si { KeyUnit::Suffix("m/s") } else { KeyUnit::Study };
-                let own =
-                    |(speed, coefficient)| Some((in_study(reader, speed, unit)?, coefficient));
-                let samples = samples.into_iter().map(own).collect::<Option<_>>()?;
-                Some((node, Some(name), samples))
-            }
-            Err(why) => {
-                reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
-                None
-            }
-        };
+        let found = file.and_then(|file| file.samples(may_be_si));
+        let (is_si, samples) = reader.in_file((&key, node), &name, found)?;
+        let unit = if is_si { KeyUnit::Suffix("m/s") } else { KeyUnit::Study };
+        let own = |(speed, coefficient)| Some((in_study(reader, speed, unit)?, coefficient));
+        let samples = samples.into_iter().map(own).collect::<Option<_>>()?;
+        return Some((node, Some(name), samples));
     }
     let found = reader.keyed(table, path, SPEED, Some(Quantity::Velocity)).ok()?;
     let (name, unit) = match &found {

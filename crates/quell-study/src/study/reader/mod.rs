@@ -14,6 +14,7 @@ use super::computed::Computed;
 use super::suggest;
 use super::vocabulary::{self, DocumentKind, Section, join};
 
+mod no_number;
 mod numbers;
 mod parts;
 mod units;

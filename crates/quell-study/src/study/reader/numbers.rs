@@ -10,6 +10,7 @@ use quell_model::units::measure::{self, Unread};
 use serde_json::Value as Json;
 
 use super::Reader;
+use super::no_number::NoNumber;
 use super::units::EquationScale;
 use crate::study::vocabulary::{KeyUnit, join};
 
@@ -295,17 +296,15 @@ impl Reader {
     }
 
     /// The number that a node gives, and the unit in which it gives it.
-    fn written(&self, node: &Node, wanted: WantedNumber) -> Result<(f64, KeyUnit), String> {
-        let kind = || format!("; got {}", node.kind());
+    fn written(&self, node: &Node, wanted: WantedNumber) -> Result<(f64, KeyUnit), NoNumber> {
+        let kind = || NoNumber::OtherKind(node.kind());
         match &node.value {
             Value::Number(number) => Ok((*number, wanted.unit)),
             Value::Text(text) => match self.measured(text, wanted) {
                 Some(Ok(written)) => Ok(written),
-                Some(Err(why)) => Err(format!("; {why}")),
+                Some(Err(why)) => Err(why),
                 None if self.units().is_of_the_file() => Ok((self.formula(text)?, wanted.unit)),
-                None if text.trim().parse::<f64>().is_ok() => {
-                    Err(format!(", without quotes; got {}", node.kind()))
-                }
+                None if text.trim().parse::<f64>().is_ok() => Err(NoNumber::Quoted(node.kind())),
                 None => Err(kind()),
             },
             _ => Err(kind()),
@@ -313,15 +312,18 @@ impl Reader {
     }
 
     /// The value of a formula of parameters.
-    fn formula(&self, text: &str) -> Result<f64, String> {
+    fn formula(&self, text: &str) -> Result<f64, NoNumber> {
         let names: Vec<&str> = self.named.names.iter().map(String::as_str).collect();
-        let formula = NumberFormula::parse(text, &names)
-            .map_err(|error| format!(", or a formula of parameters; {error}"))?;
+        let formula = NumberFormula::parse(text, &names).map_err(NoNumber::Formula)?;
         Ok(formula.value(&self.named.values))
     }
 
     /// A number with a unit, such as `5.7kN`, and the unit to which it is converted; `None` if the text is something else.
-    fn measured(&self, text: &str, wanted: WantedNumber) -> Option<Result<(f64, KeyUnit), String>> {
+    fn measured(
+        &self,
+        text: &str,
+        wanted: WantedNumber,
+    ) -> Option<Result<(f64, KeyUnit), NoNumber>> {
         if !measure::has_unit(text) {
             return None;
         }
@@ -340,9 +342,9 @@ impl Reader {
             Ok(number) => Some(Ok((number, wanted.unit))),
             Err(Unread::NotANumber | Unread::UnknownUnit(_)) if units.is_of_the_file() => None,
             Err(why @ Unread::NoUnitHere(_)) if !units.take_suffixes() => {
-                Some(Err(format!("{why}: units require {}", units.needed())))
+                Some(Err(NoNumber::NoUnits { why, needed: units.needed() }))
             }
-            Err(why) => Some(Err(why.to_string())),
+            Err(why) => Some(Err(NoNumber::Unit(why))),
         }
     }
 

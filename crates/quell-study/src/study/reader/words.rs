@@ -1,5 +1,7 @@
 //! Reads words, text and tables.
 
+use std::fmt::Display;
+
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
 use quell_input::nearest;
@@ -61,6 +63,19 @@ impl Reader {
     /// Reports an invalid value.
     pub(in crate::study) fn wrong(&mut self, key: &str, node: &Node, allowed: impl Into<String>) {
         self.complain(Complaint::new(Fault::Value, key, node.origin, node.given(), allowed));
+    }
+
+    /// What is in the file that a key names; what is wrong with it is reported.
+    pub(in crate::study) fn in_file<T>(
+        &mut self,
+        (key, node): (&str, &Node),
+        name: &str,
+        found: Result<T, impl Display>,
+    ) -> Option<T> {
+        let complaint = |why: &dyn Display| {
+            Complaint::new(Fault::Path, key, node.origin, name, why.to_string())
+        };
+        found.map_err(|why| self.complain(complaint(&why))).ok()
     }
 
     /// Reports an invalid value under a key that has not been reported.

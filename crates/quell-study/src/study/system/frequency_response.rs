@@ -11,6 +11,7 @@ use quell_model::Contact;
 use quell_model::system::{Input, InputTarget};
 
 use crate::study::reader::Reader;
+use crate::study::without_units::WithoutUnits;
 
 /// Path of the file's key.
 const KEY: &str = "system.frequency_response";
@@ -21,21 +22,9 @@ pub(super) fn read(reader: &mut Reader, node: &Node) -> Option<Arc<FrequencyResp
     let has_units = reader.units().take_suffixes();
     let found =
         reader.files().parsed(KEY, &name, frequency_response::WANTED, frequency_response::parse);
-    let found = found.and_then(|found| {
-        if found.in_hertz && !has_units {
-            return Err("a CSV file with a column frequency: the study has no units, but frequency_hz is in hertz; or \
-                        add system.units = \"SI\" or \"mm-t-s\""
-                .to_owned());
-        }
-        Ok(found)
-    });
-    match found {
-        Ok(found) => Some(found),
-        Err(why) => {
-            reader.complain(Complaint::new(Fault::Path, KEY, node.origin, name, why));
-            None
-        }
-    }
+    let found = reader.in_file((KEY, node), &name, found)?;
+    let in_units = if found.in_hertz && !has_units { Err(WithoutUnits::Hertz) } else { Ok(found) };
+    reader.in_file((KEY, node), &name, in_units)
 }
 
 /// Reports pairs of an output and an input that the contacts and dithers use and the file lacks.

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use quell_input::complaint::{Complaint, Fault};
 use quell_input::document::{Node, Table, Value};
 use quell_input::files::{Files, WantedFile};
-use quell_input::matrix_market;
+use quell_input::matrix_market::{self, WrongMatrix};
+use quell_input::wrong_file::WrongFile;
 use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
 
@@ -56,11 +57,12 @@ fn entries_in_file(
     key: &str,
     name: &str,
     n: usize,
-) -> Result<Arc<Matrix>, String> {
-    let matrix = files.parsed(key, name, MATRIX_FILE, |text| matrix_market::parse(text, n))?;
+) -> Result<Arc<Matrix>, WrongFile<WrongMatrix>> {
+    let parse = |text: &str| matrix_market::parse(text, n).map_err(WrongFile::Contents);
+    let matrix = files.parsed(key, name, MATRIX_FILE, parse)?;
     if matrix.rows() != n {
         // It was read for another table; the parser says what is wrong here.
-        return matrix_market::parse(&files.text(key, name, MATRIX_FILE)?, n).map(Arc::new);
+        return parse(&files.text(key, name, MATRIX_FILE)?).map(Arc::new);
     }
     Ok(matrix)
 }
@@ -75,13 +77,9 @@ fn in_file(reader: &mut Reader, key: &str, node: &Node, given: &Table, n: usize)
     };
     let key = join(key, FILE);
     let text = reader.text(&key, name)?;
-    match entries_in_file(reader.files(), &key, &text, n) {
-        Ok(matrix) => Some(Matrix::clone(&matrix)),
-        Err(why) => {
-            reader.complain(Complaint::new(Fault::Path, key, name.origin, text, why));
-            None
-        }
-    }
+    let found = entries_in_file(reader.files(), &key, &text, n);
+    let matrix = reader.in_file((&key, name), &text, found)?;
+    Some(Matrix::clone(&matrix))
 }
 
 /// A matrix in another unit.

@@ -22,6 +22,7 @@ use super::structure::{ReadStructure, force};
 use crate::study::reader::{Reader, WantedNumber};
 use crate::study::vocabulary::Section;
 use crate::study::vocabulary::{Choice, join};
+use crate::study::without_units::WithoutUnits;
 
 /// Modes with the name of their component; without a name for a structure of one component.
 type ModalComponent = (Option<String>, Arc<ModeList>);
@@ -179,21 +180,9 @@ fn file(reader: &mut Reader, node: &Node, key: &str) -> Option<Arc<ModeList>> {
     let list = reader
         .files()
         .parsed(key, &name, modes_file::WANTED, |text| modes_file::parse(text, MOST_COORDINATES));
-    let list = list.and_then(|list| {
-        if list.in_hertz && !has_units {
-            return Err("a CSV file with a column frequency: the study has no units, but frequency_hz is in hertz; or \
-                        add system.units = \"SI\" or \"mm-t-s\""
-                .to_owned());
-        }
-        Ok(list)
-    });
-    match list {
-        Ok(list) => Some(list),
-        Err(why) => {
-            reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
-            None
-        }
-    }
+    let list = reader.in_file((key, node), &name, list)?;
+    let in_units = if list.in_hertz && !has_units { Err(WithoutUnits::Hertz) } else { Ok(list) };
+    reader.in_file((key, node), &name, in_units)
 }
 
 /// Modes that the study lists.

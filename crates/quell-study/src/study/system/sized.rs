@@ -35,11 +35,10 @@ pub(in crate::study) fn amplitudes(
             // Where nothing slides, contacts under prescribed loads still leave the motion of the dither to the structure.
             Linearised::new(&without_prescribed_loads(system)).map_err(|_| why)
         });
-        let sliding = sliding.map_err(|why| why.to_string());
-        let point = sliding.as_ref().map_err(Clone::clone).and_then(|sliding| {
+        let point = sliding.as_ref().map_err(|why| why.clone().into()).and_then(|sliding| {
             let target = &system.inputs[dither].target;
-            DrivenPoint::of_input(system, sliding, target, &wave.waveform, wave.frequency)
-                .map_err(|why| why.to_string())
+            let (waveform, frequency) = (&wave.waveform, wave.frequency);
+            Ok(DrivenPoint::of_input(system, sliding, target, waveform, frequency)?)
         });
         let Some(amplitude) = driven.resolved(reader, actuator, point) else {
             whole = false;

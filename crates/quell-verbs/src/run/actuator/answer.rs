@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use quell_design::NoAnswer;
 use quell_design::actuator::{ActuatorAtFrequency, ActuatorLimit, SufficientBand};
 use quell_dynamics::response::BAND_END;
 use quell_model::units::Quantity;
@@ -90,7 +91,7 @@ impl ActuatorFound {
                 format!(
                     "With a {waveform} from {} nothing is known to be quenched: {}. The {kind} can give",
                     range_in_words(study, self.range),
-                    why.map_or("nothing is known", String::as_str)
+                    why.map_or("nothing is known".to_owned(), ToString::to_string)
                 )
             }
             (bands, best) => {
@@ -100,7 +101,7 @@ impl ActuatorFound {
                         Ok(margin) => {
                             format!("{} times the least amplitude", digits(margin))
                         }
-                        Err(why) => why,
+                        Err(why) => why.to_string(),
                     };
                     format!(
                         " The margin is largest at {}, {margin}; it can give",
@@ -243,7 +244,7 @@ impl ActuatorFound {
             fields.nested("best", self.fields_at(study, best, false));
         } else {
             let why = self.coverage.points.iter().find_map(|point| point.margin().err());
-            fields.unknown("best", why.unwrap_or_else(|| NOTHING_TO_QUENCH.to_owned()));
+            fields.unknown("best", why.map_or(NOTHING_TO_QUENCH.to_owned(), |why| why.to_string()));
         }
         let mut own = self.fields_at(study, &self.own, false);
         own.number("given", Quantity::Force, self.own_amplitude);
@@ -251,7 +252,7 @@ impl ActuatorFound {
         own.known("used", Quantity::Ratio, used);
         match &self.own.demand {
             Ok(demand) => own.nested("drive", demand_fields(study, &demand.at(self.own_amplitude))),
-            Err(why) => own.unknown("drive", why.as_str()),
+            Err(why) => own.unknown("drive", why),
         };
         fields.nested("own", own);
         let binding = self.coverage.binding.iter().map(|band| {
@@ -290,7 +291,7 @@ impl ActuatorFound {
         let inside =
             |point: &&ActuatorAtFrequency| from <= point.frequency && point.frequency <= to;
         let why = self.coverage.points.iter().filter(inside).find_map(|point| point.reach().err());
-        why.unwrap_or_else(|| UNKNOWN_AMPLITUDE.to_owned())
+        why.map_or(UNKNOWN_AMPLITUDE.to_owned(), |why| why.to_string())
     }
 
     fn band_fields(&self, study: &SystemStudy, band: &SufficientBand) -> Fields {
@@ -318,7 +319,7 @@ impl ActuatorFound {
         let bounded = if unbounded { Err(UNBOUNDED_MARGIN.to_owned()) } else { Ok(()) };
         let margin = bounded.and_then(|()| match at.margin() {
             Ok(margin) if margin.is_infinite() => Err(NOTHING_TO_QUENCH.to_owned()),
-            margin => margin,
+            margin => margin.map_err(|why| why.to_string()),
         });
         inner.known("needed", Quantity::Force, at.needed.clone()).known(
             "margin",
@@ -340,6 +341,6 @@ impl ActuatorFound {
 }
 
 /// A share in per cent.
-fn percent(share: Result<f64, String>) -> String {
-    share.map_or_else(|why| why, |share| format!("{} %", digits(100.0 * share)))
+fn percent(share: Result<f64, NoAnswer>) -> String {
+    share.map_or_else(|why| why.to_string(), |share| format!("{} %", digits(100.0 * share)))
 }

@@ -1,6 +1,6 @@
 //! What a dither demands of an actuator, as fields and as warnings: for `actuator` and `design`.
 
-use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
+use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize, UnknownDemand};
 use quell_model::units::Quantity;
 
 use crate::fields::Fields;
@@ -49,7 +49,7 @@ pub(crate) fn warning_about_samples(samples_per_period: Option<f64>) -> Option<S
 
 /// Force, displacement, voltage and current of a demand, and the share of every limit.
 pub(crate) fn demand_fields(study: &dyn StudyWithDesign, demand: &ActuatorDemand) -> Fields {
-    let sizes = |quantity: Quantity, size: Result<SignalSize, String>| {
+    let sizes = |quantity: Quantity, size: Result<SignalSize, UnknownDemand>| {
         let mut inner = study.fields();
         let of = |pick: fn(SignalSize) -> f64| size.clone().map(pick);
         inner

@@ -9,13 +9,14 @@ mod answer;
 mod demand;
 mod rating;
 
+use quell_design::NoAnswer;
 use quell_design::actuator::{Actuator, ActuatorAtFrequency, ActuatorCoverage, coverage};
 use quell_design::least_dither::{DesignStart, OperatingPoint, Plant, SystemPlant};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
 use quell_model::parameter::BELT_VELOCITY;
 use quell_model::profile::Wave;
-use quell_model::{Contact, System, Waveform};
+use quell_model::{Contact, RefusedNumbers, System, Waveform};
 use quell_numerics::order::{ascending, ascending_by};
 use serde_json::Value as Json;
 
@@ -86,7 +87,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFou
     };
     let linear = Linearised::new(system).map_err(failed)?;
     let found = spectrum(&linear, &linear.friction()).map_err(failed)?;
-    let with = |place: OperatingPoint<'_>, amplitude: f64| -> Result<System, String> {
+    let with = |place: OperatingPoint<'_>, amplitude: f64| -> Result<System, RefusedNumbers> {
         Ok(with_wave(system.clone(), input, |wave| {
             let frequency = place.others.first().copied().unwrap_or(wave.frequency);
             Wave { amplitude, frequency, ..wave.clone() }
@@ -218,7 +219,7 @@ fn sampled((from, to): (f64, f64), special: impl Iterator<Item = f64>) -> Vec<f6
 }
 
 /// Why the reach is unknown, if it is at every frequency.
-fn unknown_everywhere(samples: &[ActuatorAtFrequency]) -> Option<String> {
+fn unknown_everywhere(samples: &[ActuatorAtFrequency]) -> Option<NoAnswer> {
     let mut why = None;
     for sample in samples {
         match sample.reach() {

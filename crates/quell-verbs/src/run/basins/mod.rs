@@ -17,7 +17,9 @@ mod tests;
 
 use std::sync::atomic::Ordering;
 
-use quell_dynamics::attractor::{GroupedStarts, JudgedStarts, StartJudge, SystemAttractor};
+use quell_dynamics::attractor::{
+    GroupedStarts, JudgedStarts, StartJudge, SystemAttractor, UnknownEnd,
+};
 use quell_dynamics::response::dither_reaches_the_band;
 use quell_dynamics::simulation::within;
 
@@ -295,12 +297,12 @@ impl BasinsPlan<'_> {
 }
 
 /// Why outcomes are unknown, each with its number of starts.
-fn reasons(ends: &[Result<usize, String>]) -> Vec<(String, usize)> {
+fn reasons(ends: &[Result<usize, UnknownEnd>]) -> Vec<(String, usize)> {
     let mut reasons: Vec<(String, usize)> = Vec::new();
-    for why in ends.iter().filter_map(|end| end.as_ref().err()) {
-        match reasons.iter_mut().find(|(known, _)| known == why) {
+    for why in ends.iter().filter_map(|end| Some(end.as_ref().err()?.to_string())) {
+        match reasons.iter_mut().find(|(known, _)| *known == why) {
             Some((_, count)) => *count += 1,
-            None => reasons.push((why.clone(), 1)),
+            None => reasons.push((why, 1)),
         }
     }
     reasons

@@ -365,7 +365,7 @@ impl LeastDitherFound {
                 inner.plain("critical", critical);
             }
             let objective = match &designed.answer {
-                Ok(found) => found.critical.objective.clone(),
+                Ok(found) => found.critical.objective.clone().map_err(|why| why.to_string()),
                 Err(none) => Err(self.why(study, none)),
             };
             inner.known("objective", quantity_of(study, minimise), objective);
@@ -421,7 +421,11 @@ impl LeastDitherFound {
         };
         fields.number("margin", Quantity::Ratio, found.margin());
         let loud = || "no larger amplitude of the range is loud where it was judged".to_owned();
-        let loud_from = found.loud_from.clone().and_then(|end| end.ok_or_else(loud));
+        let loud_from = found
+            .loud_from
+            .clone()
+            .map_err(|why| why.to_string())
+            .and_then(|end| end.ok_or_else(loud));
         fields.known("loud_from", study.quantity_of_amplitude(), loud_from);
         let start = study.asked().map_or("local", |asked| asked.start.name());
         let mut inner = study.fields();

@@ -93,7 +93,7 @@ fn examined(study: &dyn StudyWithDesign, part: &CoveredBox, number: &DesignNumbe
             BeyondCovered::BoxEnds => inner.plain(name, "not examined"),
             BeyondCovered::Loud => inner.plain(name, "loud"),
             BeyondCovered::Exceeds(quantity) => inner.plain(name, quantity.name()),
-            BeyondCovered::Unknown(why) => inner.unknown(name, why.as_str()),
+            BeyondCovered::Unknown(why) => inner.unknown(name, why),
         };
     }
     inner
@@ -108,6 +108,7 @@ fn beyond_in_words(beyond: &BeyondCovered) -> String {
         }
         BeyondCovered::Unknown(why) => {
             // The reason without its advice, which is for one response.
+            let why = why.to_string();
             let why = why.split(';').next().unwrap_or_default();
             format!("it is unknown whether it suffices ({why})")
         }

@@ -1,6 +1,7 @@
 //! What the verified dither of a design demands of the actuator.
 
-use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
+use quell_design::NoAnswer;
+use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize, UnknownDemand};
 use quell_model::units::Quantity;
 use quell_numerics::order::descending_by;
 
@@ -11,7 +12,7 @@ use crate::run::actuator::{demand_fields, warning_about_samples, warnings_about_
 use crate::words::{digits, listed, quantity_at};
 
 /// A demand with its operating point, or why it is unknown.
-type Drive<'a> = Result<&'a (ActuatorDemand, Vec<f64>), &'a String>;
+type Drive<'a> = Result<&'a (ActuatorDemand, Vec<f64>), &'a NoAnswer>;
 
 impl LeastDitherFound {
     /// The share of every limit in words, the most used first, and what an order needs; `None` without an actuator.
@@ -41,15 +42,16 @@ impl LeastDitherFound {
             (Quantity::Current, &demand.current, false),
         ];
         // In volts and amperes also without units of the study.
-        let size = |(quantity, size, is_range): (Quantity, &Result<SignalSize, String>, bool)| {
-            let size = size.as_ref().ok()?;
-            let (value, of) = if is_range {
-                (size.peak_to_peak, "peak to peak")
-            } else {
-                (size.peak, "at its peak")
+        let size =
+            |(quantity, size, is_range): (Quantity, &Result<SignalSize, UnknownDemand>, bool)| {
+                let size = size.as_ref().ok()?;
+                let (value, of) = if is_range {
+                    (size.peak_to_peak, "peak to peak")
+                } else {
+                    (size.peak, "at its peak")
+                };
+                Some(format!("{} {} {of}", digits(value), quantity.scaled_unit()))
             };
-            Some(format!("{} {} {of}", digits(value), quantity.scaled_unit()))
-        };
         let mut needs: Vec<String> = sizes.into_iter().filter_map(size).collect();
         let stroke = study.in_words(Quantity::Displacement, demand.displacement.peak_to_peak);
         needs.push(format!("{stroke} peak to peak"));
@@ -90,7 +92,7 @@ impl LeastDitherFound {
                 fields.nested("drive", inner);
             }
             Err(why) => {
-                fields.unknown("drive", why.as_str());
+                fields.unknown("drive", why);
             }
         }
     }

@@ -243,7 +243,7 @@ fn covered_fast_first(
     {
         return Ok(part);
     }
-    covered(problem, none)
+    covered(problem, none).map_err(|why| why.to_string())
 }
 
 /// The least dither of a problem. Where none is found although other variables are chosen, the end of the range of amplitudes is taken as a

@@ -6,6 +6,7 @@ use quell_design::least_dither::{
 };
 use quell_design::tasks::InTurn;
 use quell_dynamics::simulation::within;
+use quell_model::RefusedNumbers;
 use serde_json::Value as Json;
 
 use super::found::{ConfidentDither, DesignNumber, DesignNumbers};
@@ -214,7 +215,7 @@ impl AveragedSamples {
             Ok(sample) => match problem.averaged_least_of(&sample, design) {
                 Ok(least) => Averaged::Least(least),
                 Err(NoLeast::NeverQuiet { .. }) => Averaged::Never,
-                Err(NoLeast::Failed { why, .. }) => Averaged::Unknown(why),
+                Err(NoLeast::Failed { why, .. }) => Averaged::Unknown(why.to_string()),
             },
         };
         let numbers: Vec<usize> = (0..count).collect();
@@ -263,7 +264,10 @@ impl AveragedSamples {
             let Averaged::Least(least) = &self.all[self.valid[place]] else {
                 return (place, Ok(f64::INFINITY));
             };
-            let failed = |why| NoLeast::Failed { point: Vec::new(), why };
+            let failed = |why| NoLeast::Failed {
+                point: Vec::new(),
+                why: RefusedNumbers::ByStudy(why).into(),
+            };
             let found = drawn(self.valid[place]).map_err(failed).and_then(|sample| {
                 within(STEPS_OF_MANY_SEARCHES, || problem.exact_least_of(&sample, least))
             });
@@ -278,7 +282,7 @@ impl AveragedSamples {
             for (place, exact) in found {
                 let exact = exact.unwrap_or_else(|why| {
                     if let NoLeast::Failed { why, .. } = why {
-                        unknown.push(why);
+                        unknown.push(why.to_string());
                     }
                     f64::INFINITY
                 });
@@ -319,6 +323,6 @@ fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, Str
             digits(used),
             digits(factor)
         ),
-        NoDesign::Unlimited { why, .. } | NoDesign::Failed { why, .. } => why,
+        NoDesign::Unlimited { why, .. } | NoDesign::Failed { why, .. } => why.to_string(),
     })
 }

@@ -15,9 +15,10 @@ impl LeastDitherFound {
     fn saved(&self) -> Result<f64, String> {
         let schedule = self.schedule.as_ref().map_err(Clone::clone)?;
         let found = self.answer().answer.as_ref().map_err(|_| "no dither is allowed".to_owned())?;
-        let single = found.critical.objective.clone()?;
+        let single = found.critical.objective.clone().map_err(|why| why.to_string())?;
         let objectives = schedule.iter().map(|row| row.objective.clone());
-        let objectives: Vec<f64> = objectives.collect::<Result<_, _>>()?;
+        let objectives: Vec<f64> =
+            objectives.collect::<Result<_, _>>().map_err(|why| why.to_string())?;
         if objectives.is_empty() || single <= 0.0 {
             return Err("the objective of the single dither is not positive".to_owned());
         }

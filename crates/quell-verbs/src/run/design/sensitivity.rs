@@ -1,7 +1,7 @@
 //! How the least amplitude of a design depends on every number of the study, in the units of the study.
 
 use quell_design::least_dither::{DesignStart, LeastAmplitude, LeastAmplitudeSensitivity};
-use quell_model::{System, Waveform};
+use quell_model::{RefusedNumbers, System, Waveform};
 use quell_numerics::order::descending_by;
 use serde_json::Value as Json;
 
@@ -152,16 +152,18 @@ impl LeastDitherFound {
             set.extend(over_paths.iter().copied().zip(point.iter().copied()));
             let changed = vary.iter().zip(values).filter(|((_, own), value)| own != *value);
             set.extend(changed.map(|((path, _), value)| (*path, *value)));
-            study.system_with(self.waveform(), &set)
+            study.system_with(self.waveform(), &set).map_err(RefusedNumbers::ByStudy)
         };
         let values: Vec<f64> = vary.iter().map(|(_, value)| *value).collect();
         let least =
             LeastAmplitude { at: &at, amplitude, point: &point, over: &over, numbers: &values };
-        let LeastAmplitudeSensitivity { kind, meets, derivatives } = least.sensitivity()?;
+        let LeastAmplitudeSensitivity { kind, meets, derivatives } =
+            least.sensitivity().map_err(|why| why.to_string())?;
         let mut derivatives = derivatives.into_iter();
         let rates = numbers.into_iter().map(|(path, value, may_vary)| {
             let rate = may_vary.and_then(|()| {
-                derivatives.next().unwrap_or_else(|| Err("it was not computed".to_owned()))
+                let found = derivatives.next().map(|rate| rate.map_err(|why| why.to_string()));
+                found.unwrap_or_else(|| Err("it was not computed".to_owned()))
             });
             AmplitudeRate { path, value, rate }
         });

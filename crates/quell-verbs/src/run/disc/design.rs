@@ -7,7 +7,7 @@ use quell_disc::marginal::tongue_grid;
 use quell_model::disc::{Contributions, DiscDither};
 use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, DISC_SPEED};
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
-use quell_model::{Disc, Waveform};
+use quell_model::{Disc, RefusedNumbers, Waveform};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -151,7 +151,7 @@ fn disc_at(
     waveform: &Waveform,
     numbers: &[(&DiscNumber, f64)],
     amplitude: f64,
-) -> Result<Disc, String> {
+) -> Result<Disc, RefusedNumbers> {
     let as_written = numbers.iter().filter(|(known, _)| known.parameter.is_none());
     let as_written: Vec<(&str, f64)> = as_written
         .map(|(known, value)| (known.number.path.as_str(), value * known.number.per_unit))
@@ -159,15 +159,14 @@ fn disc_at(
     let mut disc = match as_written.as_slice() {
         [] => study.disc().clone(),
         numbers => {
-            let numbers = study.model().numbers(numbers).map_err(|why| why.to_string())?;
-            study.setup_at(&numbers).map_err(|why| why.to_string())?.disc().clone()
+            let numbers = study.model().numbers(numbers).map_err(RefusedNumbers::by_study)?;
+            study.setup_at(&numbers).map_err(RefusedNumbers::by_study)?.disc().clone()
         }
     };
-    let words = |why: quell_model::InvalidValues| why.to_string();
     if disc.waveform() != waveform {
         // The amplitude of the study may be too large for another waveform.
-        disc = disc.with_amplitude(0.0).map_err(words)?;
-        disc = disc.shaped(waveform.clone()).map_err(words)?;
+        disc = disc.with_amplitude(0.0)?;
+        disc = disc.shaped(waveform.clone())?;
     }
     for (known, value) in numbers {
         let changed = match known.parameter {
@@ -175,9 +174,9 @@ fn disc_at(
             Some(path) if path == DITHER_FREQUENCY_RATIO.path => disc.with_frequency_ratio(*value),
             _ => continue,
         };
-        disc = changed.map_err(words)?;
+        disc = changed?;
     }
-    disc.with_amplitude(amplitude).map_err(words)
+    Ok(disc.with_amplitude(amplitude)?)
 }
 
 /// Rejects questions that the dither of a disc does not answer.

@@ -245,7 +245,7 @@ fn undithered(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, 
             searched(starts)
         }
     };
-    let sliding = sliding_verdict(&free).map(Verdict::name);
+    let sliding = sliding_verdict(&free).map(Verdict::name).map_err(|why| why.to_string());
     Ok(PeriodicResponse { found, cycles, tried, sliding: Some(sliding) })
 }
 

@@ -21,7 +21,7 @@ pub fn local_verdict(system: &System) -> Result<&'static str, String> {
         let base = base_response(system, BASE_STEPS).map_err(|why| why.to_string())?;
         return Ok(base.verdict().name());
     }
-    Ok(sliding_verdict(system)?.name())
+    Ok(sliding_verdict(system).map_err(|why| why.to_string())?.name())
 }
 
 /// Why the observed velocity is unknown.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use quell_design::least_dither::{OperatingPoint, Plant, SampledQuiet, SystemAtPoint, SystemPlant};
-use quell_model::{System, Waveform};
+use quell_model::{RefusedNumbers, System, Waveform};
 
 use super::has_equations;
 use crate::complaint::{Complaint, Failure};
@@ -36,14 +36,14 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
                      waveform: &Waveform,
                      fixed: &[(String, f64)],
                      (at, value): (OperatingPoint<'_>, f64)|
-     -> Result<System, String> {
+     -> Result<System, RefusedNumbers> {
         let fixed = fixed.iter().map(|(path, value)| (path.as_str(), *value));
         let chosen = paths.iter().copied().zip(at.point.iter().chain(at.others).copied());
         let numbers: Vec<(&str, f64)> =
             fixed.chain(chosen).chain([(amplitude_path, value)]).collect();
         let model = study.model();
-        let numbers = model.numbers(&numbers).map_err(|why| why.to_string())?;
-        let system = model.at(&numbers).map_err(|why| why.to_string())?;
+        let numbers = model.numbers(&numbers).map_err(RefusedNumbers::by_study)?;
+        let system = model.at(&numbers).map_err(RefusedNumbers::by_study)?;
         Ok(system_with_waveform(system, input, waveform))
     };
     let system_of = &system_of;
@@ -87,7 +87,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
             let point: Vec<f64> = asked.over.iter().map(|range| range.from).collect();
             system(OperatingPoint { point: &point, others }, amplitude.from).map(|_| ())
         };
-        at(&own)?;
+        at(&own).map_err(|why| why.to_string())?;
         let exactly = |exactly: bool| {
             let (system, others) = (system.clone(), own.clone());
             move |point: &[f64], range: (f64, f64)| {

@@ -30,7 +30,7 @@ pub fn beyond_laws(study: &SystemStudy, largest: impl Fn(usize) -> f64) -> Vec<S
 
 /// Adds the means of a contact.
 pub(crate) fn put_means(fields: &mut Fields, means: Result<ContactMeans, &'static str>) {
-    let of = |pick: fn(&ContactMeans) -> f64| means.as_ref().map(pick).map_err(|why| (*why).into());
+    let of = |pick: fn(&ContactMeans) -> f64| means.as_ref().map(pick).map_err(|why| *why);
     fields
         .known("stick_fraction", Quantity::Ratio, of(|means| means.stick_fraction))
         .known("open_fraction", Quantity::Ratio, of(|means| means.open_fraction))

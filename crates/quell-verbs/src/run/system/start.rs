@@ -72,9 +72,11 @@ pub fn start_of(study: &SystemStudy) -> Result<MotionStart, Failure> {
         SystemStart::Sliding => sliding_state(&first)
             .map_err(|why| refused("sliding", format!("another state: {why}")))?,
         SystemStart::Squealing => {
-            squealing_state(&first).map_err(|why| refused("squealing", why))?
+            squealing_state(&first).map_err(|why| refused("squealing", why.to_string()))?
         }
-        SystemStart::Base => base_state(&first).map_err(|why| refused("base", why))?,
+        SystemStart::Base => {
+            base_state(&first).map_err(|why| refused("base", format!("another state: {why}")))?
+        }
     };
     // The contacts' own numbers begin at zero.
     state.resize(size, 0.0);

@@ -1,12 +1,12 @@
 //! `thresholds --along`: curves of the thresholds of a base response in two parameters, and the boundaries of averaging.
 
 use quell_dynamics::orbit::{
-    CurvesFound, OpenLine, ThresholdCurve, ThresholdCurveEnd, ThresholdKind, ThresholdPlane,
-    threshold_curves,
+    CurvesFound, OpenLine, SystemAt, ThresholdCurve, ThresholdCurveEnd, ThresholdKind,
+    ThresholdPlane, threshold_curves,
 };
 use quell_linear::averaging::{Averaging, Becomes, DitheredSystem, critical_amplitudes};
-use quell_model::System;
 use quell_model::units::Quantity;
+use quell_model::{RefusedNumbers, System};
 use serde_json::{Value as Json, json};
 
 use super::super::slip::SlipReached;
@@ -137,9 +137,9 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<Curves, Failu
     let (parameter, along) = (request.parameter.as_str(), request.along.as_str());
     let model = study.model();
     let ids = [model.parameter(parameter)?, model.parameter(along)?];
-    let at = |values: &[f64]| -> Result<System, String> {
+    let at = |values: &[f64]| -> Result<System, RefusedNumbers> {
         let numbers = [(ids[0].clone(), values[0]), (ids[1].clone(), values[1])];
-        model.at(&numbers).map_err(|why| why.to_string())
+        model.at(&numbers).map_err(RefusedNumbers::by_study)
     };
     let middle = |(from, to): (f64, f64)| 0.5 * (from + to);
     let ends = [
@@ -178,7 +178,7 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<Curves, Failu
 fn averaged(
     study: &SystemStudy,
     request: &CurvesRequest,
-    at: &dyn Fn(&[f64]) -> Result<System, String>,
+    at: &SystemAt<'_>,
 ) -> Vec<AveragedBoundary> {
     let (least, most) = request.window;
     // A peak force is in newtons under every key of a study with units.

@@ -10,14 +10,14 @@ mod window;
 
 use std::sync::Mutex;
 
-use quell_dynamics::attractor::{RunOutcome, RunSwitches, VariedRun, values_tried};
+use quell_dynamics::attractor::{NoStart, RunOutcome, RunSwitches, VariedRun, values_tried};
 use quell_dynamics::orbit::{
-    BASE_STEPS, BranchEnding, BranchThresholds, NoOrbit, OrbitVerdict, base_response,
+    BASE_STEPS, BranchEnding, BranchThresholds, NoOrbit, OrbitVerdict, SystemAt, base_response,
     branch_thresholds, sliding_state, sliding_verdict,
 };
 use quell_dynamics::response::dither_reaches_the_band;
 use quell_linear::growth::Verdict;
-use quell_model::System;
+use quell_model::{RefusedNumbers, System};
 use serde_json::Value as Json;
 
 use super::protocol::Protocol;
@@ -142,8 +142,9 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
     let model = study.model();
     let parameter = model.parameter(path)?;
     let dithered = is_dithered_within(study, request);
-    let at = |values: &[f64]| -> Result<System, String> {
-        let system = model.at(&[(parameter.clone(), values[0])]).map_err(|why| why.to_string())?;
+    let at = |values: &[f64]| -> Result<System, RefusedNumbers> {
+        let numbers = [(parameter.clone(), values[0])];
+        let system = model.at(&numbers).map_err(RefusedNumbers::by_study)?;
         // A dither of amplitude 0 has no period of its own.
         Ok(if dithered { system } else { system.undithered() })
     };
@@ -215,19 +216,19 @@ fn begin(
     study: &SystemStudy,
     system: &System,
     protocol: &Protocol,
-) -> Result<(Vec<f64>, bool), String> {
+) -> Result<(Vec<f64>, bool), NoStart> {
     match protocol.state(study, system) {
         Err(_) if *protocol == Protocol::Squeal && slides_steadily(system) => {
-            Ok((sliding_state(system).map_err(|why| why.to_string())?, true))
+            Ok((sliding_state(system).map_err(NoStart::NoSliding)?, true))
         }
-        state => Ok((state.map_err(|why| why_of(&why))?, false)),
+        state => Ok((state.map_err(|why| NoStart::OfStudy(why_of(&why)))?, false)),
     }
 }
 
 impl Thresholds {
     /// The slip that the responses at the thresholds and at both ends of the branch reach, and the runs from their starts at the ends of the
     /// window and at their changes.
-    fn slip(&self, study: &SystemStudy, at: &dyn Fn(&[f64]) -> Result<System, String>) -> Vec<f64> {
+    fn slip(&self, study: &SystemStudy, at: &SystemAt<'_>) -> Vec<f64> {
         let mut slip = SlipReached::new(study.system());
         if let Ok(local) = &self.local {
             let ends = [local.branch.first(), local.branch.last()].into_iter().flatten();

@@ -68,7 +68,7 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
         let unit = with_wave(system.clone(), 0, |_| wave.clone());
         let range = first_averaged(&unit, 0);
         let quiet_without = range.as_ref().is_ok_and(|(low, _)| *low == 0.0);
-        let averaged = range.and_then(least);
+        let averaged = range.map_err(|why| why.to_string()).and_then(least);
         let without_state = averaged.as_ref().ok().and_then(|least| {
             let average = DitheredSystem::new(&unit).ok()?;
             let average = average.average_with(Some((0, least.amplitude))).ok()?;
