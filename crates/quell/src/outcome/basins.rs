@@ -6,14 +6,13 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::figure;
+use super::table::{figure, figure_in_units};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::basins::{Basins, Portrait, Share, quiescence};
 use crate::run::system::attractor::in_words;
-use crate::run::system::in_units;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for Basins {
@@ -83,7 +82,7 @@ fn motions(study: &SystemStudy, portrait: &Portrait) -> String {
             100.0 * share.low,
             100.0 * share.high,
             in_words(attractor, study.units()),
-            in_units(study.units(), Quantity::Displacement, attractor.size()),
+            figure_in_units(study.units(), Quantity::Displacement, attractor.size()),
             if stick.is_empty() { "0".to_owned() } else { stick.join(", ") },
         );
     }

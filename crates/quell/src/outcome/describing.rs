@@ -6,13 +6,12 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::figure;
+use super::table::{figure, figure_in_units};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::describing::DescribedContacts;
-use crate::run::system::in_units;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for DescribedContacts {
@@ -46,8 +45,8 @@ fn table(study: &SystemStudy, done: &DescribedContacts) -> String {
     for (index, contact) in done.contacts.iter().enumerate() {
         let growth = done.balance.as_ref().ok().filter(|balance| balance.contact == index);
         let (velocity, load) = (
-            in_units(study.units(), Quantity::Velocity, contact.velocity),
-            in_units(study.units(), Quantity::Force, contact.normal_load),
+            figure_in_units(study.units(), Quantity::Velocity, contact.velocity),
+            figure_in_units(study.units(), Quantity::Force, contact.normal_load),
         );
         let name = growth.map_or("", |_| "growth rate");
         let _ = write!(

@@ -5,7 +5,7 @@ use quell_numerics::order::ascending;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::TextTable;
+use super::table::{TextTable, figure_in_units};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
@@ -39,7 +39,7 @@ impl Presented<SystemSetup> for NoiseResponse {
 
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = TextTable::default();
-        let with = |quantity: Quantity, value: f64| in_units(study.units(), quantity, value);
+        let with = |quantity, value| figure_in_units(study.units(), quantity, value);
         table(self, &mut text, &with(Quantity::FrequencyRatio, self.band_end));
         for (contact, name) in self.contacts.iter().enumerate() {
             let mut stuck: Vec<f64> =

@@ -4,13 +4,12 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::TextTable;
+use super::table::{TextTable, figure_in_units};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::ramp::Ramp;
-use crate::run::system::in_units;
 use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for Ramp {
@@ -26,7 +25,7 @@ impl Presented<SystemSetup> for Ramp {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        let with = |quantity, value| in_units(study.units(), quantity, value);
+        let with = |quantity, value| figure_in_units(study.units(), quantity, value);
         let mut table = TextTable::default();
         for switch in &self.switches {
             table.word(event(switch.to_quiet), &with(self.ramped.quantity, switch.value));

@@ -8,7 +8,7 @@ use quell_numerics::order::descending_by;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::figure;
+use super::table::{figure, figure_in_units};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
@@ -38,11 +38,7 @@ impl Presented<SystemSetup> for MeasuredResponse {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        let with = |quantity: Quantity, value: f64| {
-            let unit =
-                study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
-            format!("{}{unit}", figure(value))
-        };
+        let with = |quantity, value| figure_in_units(study.units(), quantity, value);
         let mut text = String::new();
         let records = [
             ("with dither", &self.response.dithered),

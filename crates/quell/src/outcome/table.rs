@@ -1,6 +1,8 @@
 //! Short tables for people.
 
-use crate::study::DiscStudy;
+use quell_model::units::Quantity;
+
+use crate::study::{DiscStudy, UnitSystem};
 
 /// Digits of a number in a table.
 const DIGITS: usize = 7;
@@ -36,6 +38,12 @@ pub(super) fn in_hertz(study: &DiscStudy, ratios: &[f64]) -> String {
 pub(super) fn in_rpm(study: &DiscStudy, speed: f64) -> String {
     let in_brackets = |hertz: f64| format!(" ({} rpm)", figure(60.0 * hertz * speed));
     study.reference_hz().map_or_else(String::new, in_brackets)
+}
+
+/// A number with [`DIGITS`] significant digits and its unit.
+pub(super) fn figure_in_units(units: UnitSystem, quantity: Quantity, value: f64) -> String {
+    let unit = units.unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
+    format!("{}{unit}", figure(value))
 }
 
 /// A number with [`DIGITS`] significant digits.

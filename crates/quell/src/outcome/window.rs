@@ -4,11 +4,11 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
+use super::table::figure_in_units;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::system::in_units;
 use crate::run::window::WindowedResponse;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -26,7 +26,7 @@ impl Presented<SystemSetup> for WindowedResponse {
 
     fn table(&self, study: &SystemStudy) -> String {
         let each = self.contacts.iter().map(|(name, means)| {
-            let force = in_units(study.units(), Quantity::Force, means.friction);
+            let force = figure_in_units(study.units(), Quantity::Force, means.friction);
             let share = 100.0 * means.stick_fraction;
             format!("  contact {name}: mean friction {force}, in stick {share:.1} % of the time\n")
         });

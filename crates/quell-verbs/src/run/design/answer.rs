@@ -17,7 +17,7 @@ use super::study_with_design::StudyWithDesign;
 use crate::contact_state::averages_are_a_start;
 use crate::fields::Fields;
 use crate::run::waveforms::label;
-use crate::words::{digits, listed, plural, quantity_at};
+use crate::words::{digits, listed, more_digits, plural, quantity_at};
 
 /// A limit binds if at least this share of it is used.
 const BINDS: f64 = 0.9999;
@@ -210,7 +210,7 @@ impl LeastDitherFound {
         let binding = self.binding(&found.critical);
         let binding: Vec<String> = binding.iter().map(|name| quantity_at(name)).collect();
         let binds = (!binding.is_empty()).then(|| format!("At the limit: {}.", listed(&binding)));
-        let largest = digits(found.largest_multiplier());
+        let largest = more_digits(found.largest_multiplier());
         let notes = [
             decides,
             binds,
