@@ -84,13 +84,13 @@ pub(crate) struct PlotArguments {
     /// Draws the answer into a picture file
     #[arg(long, value_name = "FILE.svg|.pdf|.png")]
     plot: Option<PathBuf>,
-    /// Width of the picture with its unit, such as 85mm for the column of a journal [default: suits its panels]
+    /// Width of the picture with its unit, such as 85mm for the column of a journal [default: chosen to suit the panels]
     #[arg(long, value_name = "LENGTH", requires = "plot", allow_hyphen_values = true)]
     width: Option<String>,
     /// Draws the caption below the picture [default: only in the answer]
     #[arg(long, requires = "plot")]
     caption: bool,
-    /// Leaves the title above the picture out
+    /// Omits the title above the picture
     #[arg(long, requires = "plot")]
     no_title: bool,
 }

@@ -1,5 +1,18 @@
 //! Numbers, quantities and lists as text.
 
+/// An estimated value with the digits that its standard error leaves: two of the error, and the value down to the same place.
+pub fn estimated(value: f64, error: Option<f64>) -> String {
+    let Some(error) = error.filter(|error| error.is_finite() && *error > 0.0 && value != 0.0)
+    else {
+        return more_digits(value);
+    };
+    let places = libm::floor(libm::log10(value.abs())) - libm::floor(libm::log10(error)) + 2.0;
+    let count = (1..=12_u8).rev().find(|count| f64::from(*count) <= places).unwrap_or(1);
+    let [value, error] = [(value, usize::from(count)), (error, 2)]
+        .map(|(number, count)| quell_model::digits::digits(number, count));
+    format!("{value} ± {error}")
+}
+
 /// Units with which keys end.
 const UNITS_OF_KEYS: [&str; 21] = [
     "n_s_per_m",

@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     /// Time before the record of the exponents, such as 50 or 50ms [default: 50 periods of the slowest oscillation]
     #[arg(long, value_name = "T", requires = "lyapunov", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     settle: Option<String>,
-    /// Length of the record of the exponents [default: 1000 periods of the slowest oscillation]
+    /// Length of the run over which the exponents are averaged [default: 1000 periods of the slowest oscillation]
     #[arg(long, value_name = "T", requires = "lyapunov", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     record: Option<String>,
     #[command(flatten)]

@@ -8,7 +8,7 @@ use quell::verbs::verbs;
 use crate::answer::Answer;
 use crate::arguments::StudyArguments;
 
-/// Lists the equations and papers that a study's computations use, and corrections of the printed text
+/// Lists the equations and papers that a study's computations use, and corrections to the printed text
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

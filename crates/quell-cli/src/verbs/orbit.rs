@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     /// Finds the response that a run from the undithered limit cycle reaches
     #[arg(long, group = "run")]
     from_squeal: bool,
-    /// Finds the response that a run from this state reaches, given as for --near
+    /// Starts a run from this state, written as for --near, and finds the response that it reaches
     #[arg(long, group = "run", value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
     #[command(flatten)]

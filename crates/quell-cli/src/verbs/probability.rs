@@ -13,7 +13,7 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 use crate::interrupt;
 use crate::progress::Bar;
 
-/// Finds how probable it is that a study with uncertain numbers vibrates, from random samples of [uncertainty]
+/// Estimates the probability that a study with uncertain numbers vibrates, from random samples of [uncertainty]
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -18,7 +18,7 @@ use crate::progress::Bar;
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// File for the page, which needs no other file
+    /// File for the page, which is self-contained
     #[arg(long, value_name = "FILE.html")]
     out: PathBuf,
     /// Verbs to leave out, separated by commas, such as thresholds where they take long

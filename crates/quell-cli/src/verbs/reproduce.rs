@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     /// Draws the captions below the figures [default: only in the report]
     #[arg(long)]
     caption: bool,
-    /// Leaves the titles above the figures out
+    /// Omits the titles above the figures
     #[arg(long)]
     no_title: bool,
     /// Prints one JSON object on standard output and nothing else

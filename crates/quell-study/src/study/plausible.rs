@@ -172,7 +172,7 @@ fn mass_along(mass: &Matrix, row: &[f64]) -> Option<f64> {
     (inverse > 0.0).then(|| inverse.recip())
 }
 
-/// Warnings about stiffness and damping with one entry of a symmetric pair, once for each matrix.
+/// Warnings about stiffness and damping with one entry of a symmetric pair, or a stiffness with two of opposite signs, once for each.
 pub(super) fn half_symmetric(system: &System) -> Vec<String> {
     let Some(mechanical) = system.structure.mechanical() else { return Vec::new() };
     let matrices = [("damping", mechanical.damping()), ("stiffness", mechanical.stiffness())];
@@ -184,7 +184,21 @@ pub(super) fn half_symmetric(system: &System) -> Vec<String> {
              symmetric pair is missing; a {name} that is unsymmetric on purpose is allowed."
         ))
     });
-    found.collect()
+    let lost = lost_sign(mechanical.stiffness()).map(|(i, j)| {
+        let [entry, other] = [(i, j), (j, i)].map(|at| digits(mechanical.stiffness()[at], 6));
+        format!(
+            "system.stiffness[{i}][{j}] is {entry}, but system.stiffness[{j}][{i}] is {other}. Check whether one of a symmetric pair has \
+             lost its sign; a stiffness that is unsymmetric on purpose is allowed."
+        )
+    });
+    found.chain(lost).collect()
+}
+
+/// The first entry of a stiffness whose mirror image is its negative.
+fn lost_sign(matrix: &Matrix) -> Option<(usize, usize)> {
+    let n = matrix.rows();
+    let mut pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+    pairs.find(|&(i, j)| matrix[(i, j)] != 0.0 && matrix[(i, j)] == -matrix[(j, i)])
 }
 
 /// The first entry that is not zero while its mirror image is.

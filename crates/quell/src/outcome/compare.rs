@@ -14,6 +14,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::compare::{ComparedLine, ComparedRecord, Comparison, Reduction, decibels};
 use crate::study::Study;
+use crate::words::counted;
 
 /// A comparison with its study.
 #[derive(Clone, Debug)]
@@ -143,9 +144,10 @@ fn sentence(done: &Comparison) -> String {
     let before = &done.before;
     let matched = before.lines.iter().filter(|line| line.difference().is_ok()).count();
     let first = format!(
-        "{} lines of the {} are in both spectra{}, and {}.",
-        matched,
+        "{} of the {} {} in both spectra{}, and {}.",
+        counted(matched, "line"),
         before.quantity.name(),
+        if matched == 1 { "is" } else { "are" },
         if done.after.is_some() { " before the dither" } else { "" },
         levels_compared(before.rms)
     );

@@ -6,7 +6,9 @@ use quell_design::decay::{DECAY_PARAMETERS, DecayFit};
 use serde_json::{Value as Json, json};
 
 use super::Outcome;
-use super::estimates::{criteria, explained_in_words, in_words, numbers, parameters, rows};
+use super::estimates::{
+    criteria, explained_in_words, in_words, numbers, parameters, rows, weight_in_words,
+};
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -95,7 +97,7 @@ fn sentence(done: &FreeDecay) -> String {
             text,
             " Of {} laws it has the least AIC, with an Akaike weight of {}.",
             done.fits.len(),
-            quell_model::digits::digits(weights[0], 3)
+            weight_in_words(weights[0])
         );
     }
     text

@@ -10,7 +10,7 @@ use quell_model::units::Quantity;
 
 use crate::fields::Fields;
 use crate::run::named_estimates::NamedEstimates;
-use crate::words::{more_digits, quantity_at};
+use crate::words::{estimated, more_digits, quantity_at};
 
 /// The parameters as an object, those for which `shown` holds.
 pub(super) fn parameters(named: &NamedEstimates, shown: impl Fn(usize) -> bool) -> Fields {
@@ -73,18 +73,23 @@ pub(super) fn explained_in_words(named: &NamedEstimates) -> Option<String> {
     Some(format!("{text} %"))
 }
 
+/// An Akaike weight; one that is not 1 is not printed as 1.
+pub(super) fn weight_in_words(weight: f64) -> String {
+    match quell_model::digits::digits(weight, 3) {
+        text if text == "1" && weight < 1.0 => "more than 0.999".to_owned(),
+        text => text,
+    }
+}
+
 /// "damping ratio 0.01 ± 0.0002".
 pub(super) fn in_words(named: &NamedEstimates, place: usize) -> String {
-    let error = named.error(place).map_or_else(
-        |_| String::new(),
-        |error| format!(" ± {}", quell_model::digits::digits(error, 2)),
-    );
     let parameter = &named.parameters[place];
     let unit = match parameter.unit.as_str() {
         "1" => String::new(),
         unit => format!(" {unit}"),
     };
-    format!("{} {}{error}{unit}", quantity_at(&parameter.name), more_digits(named.value(place)))
+    let value = estimated(named.value(place), named.error(place).ok());
+    format!("{} {value}{unit}", quantity_at(&parameter.name))
 }
 
 /// One row for each parameter.

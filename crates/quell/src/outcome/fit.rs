@@ -8,6 +8,7 @@ use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
 use super::Outcome;
+use super::estimates::weight_in_words;
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -16,7 +17,7 @@ use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::fit::FrictionFit;
-use crate::words::{listed, more_digits, plural, quantity_at};
+use crate::words::{estimated, listed, more_digits, plural, quantity_at};
 
 /// Number of slip speeds of the curve.
 const CURVE: usize = 201;
@@ -82,16 +83,11 @@ fn sentence(done: &FrictionFit) -> String {
         .filter(|fitted| fitted.is_free())
         .map(|fitted| {
             let quantity = fitted.parameter.quantity;
-            let error = fitted.standard_error;
-            let error = error.map_or_else(
-                |_| String::new(),
-                |error| format!(" ± {}", quell_model::digits::digits(error, 2)),
-            );
-            let value = more_digits(fitted.value);
+            let value = estimated(fitted.value, fitted.standard_error.ok());
             let unit = unit(done, quantity);
             let unit =
                 if done.data.is_si() && unit != "1" { format!(" {unit}") } else { String::new() };
-            format!("{} {value}{error}{unit}", quantity_at(fitted.parameter.key()))
+            format!("{} {value}{unit}", quantity_at(fitted.parameter.key()))
         })
         .collect();
     let mut text = format!(
@@ -107,7 +103,7 @@ fn sentence(done: &FrictionFit) -> String {
             text,
             " Of {} laws it has the least AIC, with an Akaike weight of {}.",
             done.fits.len(),
-            quell_model::digits::digits(weights[0], 3)
+            weight_in_words(weights[0])
         );
     }
     text

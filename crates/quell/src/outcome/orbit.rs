@@ -66,7 +66,9 @@ fn table(study: &SystemStudy, found: &FoundMotion) -> String {
     row("verdict", orbit.verdict().name().to_owned());
     for z in orbit.multipliers.iter().take(MOST_LISTED) {
         let sign = if z.im < 0.0 { '−' } else { '+' };
-        row("multiplier", format!("{:.9} {sign} {:.9} i", z.re, z.im.abs()));
+        // Without a minus sign before a zero.
+        let real = if z.re.abs() < 5e-10 { 0.0 } else { z.re };
+        row("multiplier", format!("{real:.9} {sign} {:.9} i", z.im.abs()));
     }
     row("modulus of the deciding multiplier", figure(orbit.radius()));
     row("period", figure(orbit.period) + &unit(Some(Quantity::Time)));

@@ -32,6 +32,10 @@ where
         Some(self.sentence(study))
     }
 
+    fn notes(&self, study: &StudyOf<K>) -> Vec<String> {
+        self.notes(study)
+    }
+
     fn table(&self, _: &StudyOf<K>) -> String {
         table(self)
     }

@@ -36,7 +36,7 @@ impl Presented<SystemSetup> for Thresholds {
         let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
         let (path, (from, to)) = (&self.request.parameter, self.request.window);
-        let [from, to] = [from, to].map(|value| self.value(study, value));
+        let [from, to] = [from, to].map(|value| format!("{}{unit}", figure(value)));
         let mut text = format!("\n{path} from {from} to {to}, {}:\n", self.subject());
         if self.local.as_ref().is_ok_and(|local| local.thresholds.is_empty()) {
             text += "  no local threshold\n";
@@ -71,7 +71,7 @@ impl Presented<SystemSetup> for Thresholds {
         for (protocol, switches) in &self.runs {
             let _ = writeln!(
                 text,
-                "run {} (at {} values; a pair of changes between two of them is missed):",
+                "run {} (at {} values; a pair of changes between two of them may be missed):",
                 protocol.words(study),
                 TRIED + 1
             );

@@ -1,6 +1,7 @@
 //! The plane of starts: two numbers of the state, their windows, and how a door reads them.
 
 use quell_dynamics::orbit::sliding_state;
+use quell_dynamics::response::vibration_frequency;
 use quell_model::System;
 
 use super::StartLayout;
@@ -53,8 +54,8 @@ pub(super) fn places(
 
 /// The window of a number of the state: centred on steady sliding. Of one mass it reaches as far as its static friction holds it and one
 /// and a half times as far as the surface takes it in 1/ω₀, in displacement and velocity alike. Of others its reach is the largest
-/// displacement of steady sliding, or what the fastest surface covers in a time scale; that of a velocity is one and a half times this
-/// velocity.
+/// displacement of steady sliding, or one and a half times what the fastest surface covers in 1/ω of the vibration; that of a velocity is
+/// this reach, or a fifth of the displacement, times ω.
 pub(super) fn window(system: &System, start: &[f64], place: usize) -> (f64, f64) {
     let size = system.structure.size();
     let is_velocity = system.structure.mechanical().is_some() && place >= size;
@@ -67,8 +68,12 @@ pub(super) fn window(system: &System, start: &[f64], place: usize) -> (f64, f64)
     } else {
         let speeds = system.contacts.iter().map(|contact| contact.surface_velocity.mean().abs());
         let speed = speeds.fold(0.0, f64::max);
-        let largest = state.iter().fold(0.0, |m: f64, value| m.max(value.abs()));
-        if is_velocity { 1.5 * speed.max(0.2 * largest) } else { largest.max(speed) }
+        let displacements = state.iter().take(size);
+        let largest = displacements.fold(0.0, |m: f64, value| m.max(value.abs()));
+        // A displacement in the time scale of the slowest oscillation.
+        let rate = vibration_frequency(system).unwrap_or(1.0);
+        let reach = (1.5 * speed / rate).max(0.2 * largest);
+        if is_velocity { rate * reach } else { reach.max(largest) }
     };
     let reach = if reach > 0.0 { reach } else { 1.0 };
     (state[place] - reach, state[place] + reach)

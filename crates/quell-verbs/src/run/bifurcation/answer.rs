@@ -38,7 +38,7 @@ impl Bifurcation {
         value_at(study, &self.range.parameter, value)
     }
 
-    /// One sentence for each direction and one that compares both.
+    /// A sentence with both directions, and one that compares them.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let quantity = quantity_at(&self.range.parameter);
         let mut sentences: Vec<String> = Vec::new();
@@ -47,8 +47,13 @@ impl Bifurcation {
             let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) else {
                 continue;
             };
+            let begins = if sentences.is_empty() {
+                format!("Sweeping the {quantity} {way}")
+            } else {
+                format!("sweeping {way}")
+            };
             let mut parts = vec![format!(
-                "Sweeping the {quantity} {way}, the motion is {} at {}",
+                "{begins}, the motion is {} at {}",
                 briefly(study, first),
                 self.value(study, first.value)
             )];
@@ -65,11 +70,15 @@ impl Bifurcation {
             }
             let end = self.value(study, last.value);
             sentences.push(format!(
-                "{}, and is {} at {end}.",
+                "{}, and is {} at {end}",
                 parts.join(", "),
                 briefly(study, last)
             ));
         }
+        let mut sentences = match sentences.as_slice() {
+            [] => Vec::new(),
+            some => vec![format!("{}.", some.join("; "))],
+        };
         if self.branches.len() == 2 {
             let value = |value| self.value(study, value);
             let known = self.both_known();

@@ -17,7 +17,7 @@ use super::basins::{Share, StartLayout};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::words::{digits, plural};
+use crate::words::{capital, digits, plural};
 
 pub use runs::run;
 
@@ -175,8 +175,8 @@ impl NoiseResponse {
         let [settle, length] =
             [self.settle, self.length].map(|time| in_words(Quantity::Time, time));
         format!(
-            "Started {}, {result}. Each run is measured for {length} after t = {settle}.",
-            self.start
+            "{}, {result}. Each run is measured for {length} after t = {settle}.",
+            capital(&self.start)
         )
     }
 

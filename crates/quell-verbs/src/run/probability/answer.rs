@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use super::{ProbabilityStart, SampledGrowth, SampledKind, VerdictTally, VibrationProbability};
 use crate::fields::Fields;
 use crate::run::stability::FAST;
-use crate::words::plural;
+use crate::words::{plural, quantity_at};
 
 /// Digits of numbers in sentences: more are not known from a sample.
 fn digits(value: f64) -> String {
@@ -46,31 +46,11 @@ impl VibrationProbability {
         };
         let limit = self.limit_verdicts.as_ref().and_then(of);
         let limit = limit.map_or(String::new(), |found| {
-            format!(" In the limit of high dither frequency it is {found}.")
+            format!("; in the limit of high dither frequency it is {found}")
         });
         let judge = match self.limit_verdicts {
             Some(_) => "by finite-R averaging",
             None => self.start.words(),
-        };
-        let cause = self.main_cause().map_or(String::new(), |(paths, total)| {
-            format!(
-                " {} causes {} of the variance of the growth rate, alone and together with others.",
-                paths.join(" with "),
-                // The estimate of a share may exceed 1 by its error.
-                per_cent(total.value.clamp(0.0, 1.0))
-            )
-        });
-        let (unit, factor) = study.unit_of_rates();
-        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-        // The growth rate is that of averaging, also where exact motions decide about the vibration.
-        let averaged = if self.start == ProbabilityStart::Averaged { "" } else { " by averaging" };
-        let growth = match self.growth.quantiles() {
-            Some([low, _, high]) => format!(
-                " The growth rate{averaged} is between {}{unit} and {}{unit} in 90 % of the samples.",
-                digits(low * factor),
-                digits(high * factor)
-            ),
-            None => String::new(),
         };
         let enough = self.thresholds.quantile(0.95).map_or(String::new(), |amplitude| {
             // Not with the few digits of a probability: rounded down, it would be loud.
@@ -80,10 +60,34 @@ impl VibrationProbability {
             )
         });
         format!(
-            "The probability that it vibrates {judge} is {probability}, from {} sample{}.{limit}{growth}{cause}{enough}",
+            "The probability that it vibrates {judge} is {probability}, from {} sample{}{limit}.{enough}",
             self.samples,
             plural(self.samples)
         )
+    }
+
+    /// The growth rate, and the number on which it depends most.
+    pub fn notes(&self, study: &impl SampledKind) -> Vec<String> {
+        let cause = self.main_cause().map(|(paths, total)| {
+            format!(
+                "The {} causes {} of the variance of the growth rate, alone and together with others.",
+                paths.iter().map(|path| quantity_at(path)).collect::<Vec<_>>().join(" with the "),
+                // The estimate of a share may exceed 1 by its error.
+                per_cent(total.value.clamp(0.0, 1.0))
+            )
+        });
+        let (unit, factor) = study.unit_of_rates();
+        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+        // The growth rate is that of averaging, also where exact motions decide about the vibration.
+        let averaged = if self.start == ProbabilityStart::Averaged { "" } else { " by averaging" };
+        let growth = self.growth.quantiles().map(|[low, _, high]| {
+            format!(
+                "The growth rate{averaged} is between {}{unit} and {}{unit} in 90 % of the samples.",
+                digits(low * factor),
+                digits(high * factor)
+            )
+        });
+        growth.into_iter().chain(cause).collect()
     }
 
     /// Paths of a group of numbers.

@@ -18,10 +18,10 @@ use crate::run::quench_numbers::least_quiet;
 use crate::run::sliding_growth::{SlidingGrowth, growth_of};
 use crate::run::stability::FAST;
 use crate::run::system::attractor::local_verdict;
-use crate::run::system::{has_equations, in_units};
+use crate::run::system::has_equations;
 use crate::status::Status;
 use crate::study::{DiscStudy, ParameterId, SystemStudy, UnitSystem};
-use crate::words::digits;
+use crate::words::more_digits;
 
 /// A growth rate with its verdict.
 #[derive(Clone, Debug, PartialEq)]
@@ -203,7 +203,9 @@ impl SampledKind for SystemStudy {
     }
 
     fn force_in_words(&self, force: f64) -> String {
-        in_units(self.units(), Quantity::Force, force)
+        let unit =
+            self.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
+        more_digits(force) + &unit
     }
 
     fn unit_of_rates(&self) -> (&'static str, f64) {
@@ -269,7 +271,7 @@ impl SampledKind for DiscStudy {
     }
 
     fn force_in_words(&self, force: f64) -> String {
-        digits(force)
+        more_digits(force)
     }
 
     fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, String>) {

@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 use quell_dynamics::attractor::MotionKind;
 use quell_dynamics::motion::InputCost;
 use quell_dynamics::response::{
-    Effect, ResponsePlan, ResponseRefused, SteadyResponse, SystemEnding, Uncertain, Undefined,
-    respond, vibration_frequency,
+    Effect, ResponsePlan, ResponseRefused, SettledRecord, SteadyResponse, SystemEnding, Uncertain,
+    Undefined, respond, vibration_frequency,
 };
 use quell_model::System;
 use quell_model::units::Quantity;
@@ -22,7 +22,7 @@ use super::system::start::{duration, start_in_words, start_of};
 use super::system::{failed, frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::study::{Solver, SystemStudy};
-use crate::words::{digits, listed};
+use crate::words::{capital, digits, listed};
 
 pub use band::InBand;
 
@@ -131,9 +131,13 @@ pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRef
                 .into()
         }
         _ => {
-            let limit = in_units(study.units(), Quantity::Time, limit);
-            let allowed = format!("a record of {bound} {limit}, {why}");
-            Complaint::option("--record", plan.length, allowed).into()
+            let [limit, length] =
+                [limit, plan.length].map(|time| in_units(study.units(), Quantity::Time, time));
+            let allowed = format!(
+                "a record of {bound} {limit}, {why}; where none is given it lasts {RECORD_PERIODS} periods of the slowest oscillation, \
+                 the dither included"
+            );
+            Complaint::option("--record", length, allowed).into()
         }
     };
     match why {
@@ -200,17 +204,17 @@ impl MeasuredResponse {
     /// The effect of the dither and its cost.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let response = &self.response;
-        let (units, from) = (study.units(), start_in_words(study, &Vec::new()));
+        let (units, from) = (study.units(), capital(&start_in_words(study, &Vec::new())));
         let amplitude = in_units(units, Quantity::Displacement, response.dithered.lines.whole);
         if !response.has_dither() {
             return match response.residual_vibration {
                 Ok(_) => format!(
-                    "Started {from}, without dither, the system keeps vibrating with an amplitude of {amplitude}."
+                    "{from}, without dither, the system keeps vibrating with an amplitude of {amplitude}."
                 ),
                 Err(Undefined::UnditheredSettles) => {
-                    format!("Started {from}, the motion settles without vibration.")
+                    format!("{from}, the motion settles without vibration.")
                 }
-                Err(why) => format!("Started {from}, {}.", undefined(why)),
+                Err(why) => format!("{from}, {}.", undefined(why)),
             };
         }
         let band = frequency_in_words(units, response.band_end);
@@ -226,13 +230,31 @@ impl MeasuredResponse {
             }
             .sentence(effect),
         };
-        let cost = self.costs(study).map_or(String::new(), |cost| format!(" {cost}"));
-        format!("Started {from}, {what}.{cost}")
+        let is_known = !matches!(response.effect, Effect::Unknown(_));
+        let cost = self.costs(study).filter(|_| is_known);
+        let cost = cost.map_or(String::new(), |cost| format!(" {cost}"));
+        format!("{from}, {what}.{cost}")
     }
 
-    /// The levels in the requested band.
+    /// The levels in the requested band, and the mean friction against the run without dither.
     pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
-        self.band_in_words(study).into_iter().collect()
+        let contacts = study.system().contacts.iter().zip(0..);
+        let against = contacts.filter_map(|(contact, index)| {
+            let friction = |record: &SettledRecord| record.contacts[index].friction;
+            let before = friction(&self.response.undithered);
+            let change = friction(&self.response.dithered) / before - 1.0;
+            let says =
+                self.response.has_dither() && change.is_finite() && change.abs() >= UNCHANGED;
+            says.then(|| {
+                format!(
+                    "Against the run without dither the mean friction of contact {} is {} {}.",
+                    contact.name,
+                    percent(change.abs()),
+                    if change > 0.0 { "higher" } else { "lower" }
+                )
+            })
+        });
+        self.band_in_words(study).into_iter().chain(against).collect()
     }
 
     /// The cost of every dither in a sentence of its own.
@@ -243,23 +265,24 @@ impl MeasuredResponse {
             |name: &str| if one_contact { String::new() } else { format!(" of contact {name}") };
         let losses = study.system().contacts.iter().zip(0..).filter_map(|(contact, index)| {
             let loss = self.friction_loss(index).ok()?;
+            let of = of(&contact.name);
             if loss.abs() < UNCHANGED {
-                return Some(format!("leaves the mean friction{} unchanged", of(&contact.name)));
+                return Some(format!("the mean friction{of} is that of steady sliding"));
             }
-            let change = if loss < 0.0 { "raises" } else { "lowers" };
+            let side = if loss < 0.0 { "above" } else { "below" };
             let share = percent(loss.abs());
-            Some(format!("{change} the mean friction{} by {share}", of(&contact.name)))
+            Some(format!("the mean friction{of} is {share} {side} that of steady sliding"))
         });
         let several = self.response.dithered.inputs.len() > 1;
         let inputs = self.response.dithered.inputs.iter().enumerate();
         let costs = inputs.filter_map(|(index, cost)| {
             let InputCost { power, stroke, in_series } = cost.ok()?;
-            let does = if power < 0.0 { "returns" } else { "consumes" };
-            let power = in_units(units, Quantity::Power, power.abs());
+            let does = if power < 0.0 { "returns" } else { "takes" };
+            let power = self.power_in_words(study, power.abs());
             let stroke = in_units(units, Quantity::Displacement, stroke);
             let of = if several { format!(" at dither[{index}]") } else { String::new() };
             Some(format!(
-                "{does} the mean power {power} with a stroke of {stroke}{of}{}",
+                "the dither {does} the mean power {power} with a stroke of {stroke}{of}{}",
                 in_series.and_then(Result::ok).map_or(String::new(), |cost| format!(
                     ", or in series with the spring of the contact {} with a stroke of {}",
                     in_units(units, Quantity::Power, cost.power),
@@ -268,7 +291,17 @@ impl MeasuredResponse {
             ))
         });
         let parts: Vec<String> = losses.chain(costs).collect();
-        (!parts.is_empty()).then(|| format!("It {}.", listed(&parts)))
+        (!parts.is_empty()).then(|| format!("{}.", capital(&listed(&parts))))
+    }
+
+    /// A mean power; of a motion that does not repeat itself with the two digits that another record would leave.
+    fn power_in_words(&self, study: &SystemStudy, power: f64) -> String {
+        if self.means_of_record(study).is_none() {
+            return in_units(study.units(), Quantity::Power, power);
+        }
+        let unit =
+            study.units().unit(Quantity::Power).map_or(String::new(), |unit| format!(" {unit}"));
+        format!("{}{unit}", quell_model::digits::digits(power, 2))
     }
 
     /// Relative loss of the mean friction of a contact against steady sliding without dither; negative for a gain.

@@ -13,6 +13,7 @@ use quell_dynamics::motion::{
     RowMeter,
 };
 use quell_model::profile::Wave;
+use quell_model::units::Quantity;
 
 use self::history::EventHistory;
 use self::sound::MotionSoundTap;
@@ -21,12 +22,11 @@ use super::sample_times;
 use super::system::of_runs::{beyond_laws, failed_run};
 use super::system::periods::{natural_period, slowest_period};
 use super::system::start::{StateNumbers, start_with};
-use super::system::{failed, has_equations};
+use super::system::{failed, has_equations, in_units};
 use crate::complaint::{Complaint, Failure};
 use crate::quantity::MOST_TIME;
 use crate::sound::{Sound, SoundOptions};
 use crate::study::SystemStudy;
-use crate::words::digits;
 
 /// Periods of the slowest oscillation that a run lasts if no duration is given.
 pub const DEFAULT_PERIODS: f64 = 100.0;
@@ -138,7 +138,7 @@ pub(crate) fn run_observed(
     if until - start.time > longest {
         let allowed = format!(
             "at most {} after the start, some 10⁸ periods of the fastest motion",
-            digits(longest)
+            in_units(study.units(), Quantity::Time, longest)
         );
         return Err(Complaint::option("--until", until, allowed).into());
     }

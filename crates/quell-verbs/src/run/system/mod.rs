@@ -81,8 +81,8 @@ pub(crate) fn checked_frequencies((from, to): (f64, f64)) -> Result<(f64, f64), 
 /// A frequency with its unit: in hertz where the study has units.
 pub fn frequency_in_words(units: UnitSystem, frequency: f64) -> String {
     match units {
-        UnitSystem::None => format!("the angular frequency {}", digits(frequency)),
-        _ => format!("{} Hz", digits(frequency / std::f64::consts::TAU)),
+        UnitSystem::None => format!("the angular frequency {}", more_digits(frequency)),
+        _ => format!("{} Hz", more_digits(frequency / std::f64::consts::TAU)),
     }
 }
 

@@ -76,7 +76,7 @@ impl TrackedStability {
             };
             format!("{by} sliding is {known}; {unknown}.")
         } else {
-            format!("{by} sliding becomes {}.", changes.join("; "))
+            format!("{by} sliding becomes {}.", changes.join("; it becomes "))
         };
         sentence + &condition
     }
