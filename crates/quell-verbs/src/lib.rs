@@ -25,6 +25,7 @@ pub mod noise;
 pub mod output;
 pub mod parallel;
 pub mod range;
+mod reasons;
 mod removed_mean;
 pub mod run;
 pub mod running;

@@ -85,7 +85,7 @@ impl LeastDitherFound {
         let found = match &self.confident {
             Ok(found) => found,
             Err(why) => {
-                fields.unknown("confident", why.as_str());
+                fields.unknown("confident", why);
                 return;
             }
         };

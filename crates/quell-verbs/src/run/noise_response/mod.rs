@@ -215,12 +215,12 @@ impl NoiseResponse {
             .known("quiet_fraction_low", Quantity::Ratio, share(|share| share.low))
             .known("quiet_fraction_high", Quantity::Ratio, share(|share| share.high))
             .plain("interval", "Wilson, 95 %")
-            .rate("averaged_growth_rate", self.averaged.clone())
+            .known_rate("averaged_growth_rate", self.averaged.clone())
             .plain("seeds", self.seeds());
         let each = self.residual_vibrations();
         match &each {
             Ok(each) => fields.numbers("residual_vibration", Quantity::Ratio, each),
-            Err(why) => fields.unknown("residual_vibration", why.as_str()),
+            Err(why) => fields.unknown("residual_vibration", why),
         };
         let of = |place: usize| {
             let spread = each.as_ref().map_err(Clone::clone).map(|each| spread(each));

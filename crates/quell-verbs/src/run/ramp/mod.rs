@@ -352,7 +352,7 @@ impl Ramp {
                 fields.list("thresholds", each.collect::<Vec<_>>());
             }
             Err(why) => {
-                fields.unknown("thresholds", why.as_str());
+                fields.unknown("thresholds", why);
             }
         }
         if let Some(found) = &self.manoeuvre {

@@ -21,11 +21,11 @@ impl SlidingStability {
             .plain("sentence", self.sentence(study))
             .plain("verdict", self.verdict().name())
             .plain("protocol", self.protocol())
-            .rate("growth_rate", Ok(rate))
-            .rate("growth_rate_error", Ok(error))
+            .rate("growth_rate", rate)
+            .rate("growth_rate_error", error)
             .number("frequency", Quantity::FrequencyRatio, frequency);
         if units != UnitSystem::None {
-            fields.decibels("growth_rate_db_per_s", Ok(DECIBELS * rate));
+            fields.decibels("growth_rate_db_per_s", DECIBELS * rate);
         }
         let values = self.spectrum.motions.iter().map(|motion| motion.eigenvalue);
         let eigenvalues: Vec<Vec<f64>> = values.map(|value| vec![value.re, value.im]).collect();
@@ -58,8 +58,8 @@ impl SlidingStability {
                 let mut inner = Fields::in_units(units);
                 inner
                     .plain("verdict", undithered.growth.verdict().name())
-                    .rate("growth_rate", Ok(rate))
-                    .rate("growth_rate_error", Ok(error))
+                    .rate("growth_rate", rate)
+                    .rate("growth_rate_error", error)
                     .number("frequency", Quantity::FrequencyRatio, frequency);
                 fields.nested("undithered", inner);
             }

@@ -169,7 +169,10 @@ impl LimitStability {
             value(|criterion| criterion.error),
         );
         let rate = self.criterion.as_ref().map_err(ToString::to_string);
-        fields.rate("growth_rate", rate.map(|found| of.mass.rate() * of_criterion(found.value)));
+        fields.known_rate(
+            "growth_rate",
+            rate.map(|found| of.mass.rate() * of_criterion(found.value)),
+        );
         match &self.critical_amplitudes {
             Err(why) => {
                 fields.unknown("critical_amplitudes", why.to_string());

@@ -117,8 +117,8 @@ impl MeasuredStability {
             .plain("sentence", self.sentence(study))
             .plain("verdict", self.sliding.verdict().name())
             .plain("protocol", if self.dither.is_some() { "averaged" } else { "linearised" })
-            .rate("growth_rate", Err(NO_RATE.to_owned()))
-            .rate("growth_rate_error", Err(NO_RATE.to_owned()))
+            .known_rate("growth_rate", Err(NO_RATE))
+            .known_rate("growth_rate_error", Err(NO_RATE))
             .number("frequency", Quantity::FrequencyRatio, self.sliding.turns.closest)
             .unknown("eigenvalues", NO_RATE)
             .plain("unstable_roots", self.sliding.turns.unstable)
@@ -144,7 +144,7 @@ impl MeasuredStability {
                 let verdict: Verdict = undithered.verdict();
                 inner
                     .plain("verdict", verdict.name())
-                    .rate("growth_rate", Err(NO_RATE.to_owned()))
+                    .known_rate("growth_rate", Err(NO_RATE))
                     .number("frequency", Quantity::FrequencyRatio, undithered.turns.closest);
                 fields.nested("undithered", inner);
                 put_critical(&mut fields, units, critical, |index, found| {
