@@ -7,16 +7,12 @@ use serde_json::Value as Json;
 
 use super::found::{AmplitudeRate, DesignNumber, DesignSensitivity, LeastDitherFound};
 use super::study_with_design::StudyWithDesign;
-use super::unknown::{NoAmplitudeRate, NoDesignSensitivity};
+use super::unknown::{MOST_NUMBERS, NoAmplitudeRate, NoDesignSensitivity};
 use crate::fields::Fields;
 use crate::words::{digits, quantity_at};
 
 /// Relative change by which a number is tried: whether the equations contain it, and whether it may vary.
 const TRIED: f64 = 1e-3;
-
-/// Numbers of a study that are differentiated at most, each of which takes a few periods of motion: matrices of large structures are
-/// written as numbers too.
-pub(super) const MOST_NUMBERS: usize = 400;
 
 /// Tables of a study that do not describe its equations.
 const APART: [&str; 7] = ["schema", "title", "sweep", "design", "uncertainty", "observe", "solver"];

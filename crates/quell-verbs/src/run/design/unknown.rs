@@ -9,11 +9,14 @@ use quell_dynamics::response::ResponseRefused;
 use quell_model::RefusedNumbers;
 use quell_numerics::continuation::sensitivity::NoSensitivity;
 
-use super::sensitivity::MOST_NUMBERS;
 use crate::complaint::Failure;
 use crate::reasons::reasons;
 use crate::run::response::NoResidualVibration;
 use crate::words::digits;
+
+/// Numbers of a study that are differentiated at most, each of which takes a few periods of motion: matrices of large structures are
+/// written as numbers too.
+pub(super) const MOST_NUMBERS: usize = 400;
 
 reasons! {
     /// Why no part of the range is known for which one dither suffices.

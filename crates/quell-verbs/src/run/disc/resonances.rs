@@ -9,6 +9,7 @@ use quell_disc::resonance::{
     WaveError, Waves, clear_frequencies, verified_frequency, within,
 };
 pub use quell_disc::resonance::{Order, Resonance};
+use quell_linear::floquet::NotFollowerDither;
 pub use quell_linear::growth::Verdict;
 use quell_model::Disc;
 use quell_model::disc::Contributions;
@@ -142,7 +143,7 @@ pub struct Resonances {
     /// Meetings induced by dither.
     pub dithered: Vec<Resonance>,
     /// The speeds in which a motion grows by the exact equations, at the friction of the study; or why they are not known.
-    pub growing: Result<Vec<GrowingInterval>, String>,
+    pub growing: Result<Vec<GrowingInterval>, NotFollowerDither>,
     /// The answer about clear frequencies.
     pub clear: Option<Clear>,
 }
@@ -232,8 +233,8 @@ fn growing(
     disc: &Disc,
     waves: &Waves,
     speeds: &RangeInclusive<f64>,
-) -> Result<Vec<GrowingInterval>, String> {
-    let found = growing_speeds(disc, speeds, STEPS).map_err(|why| why.to_string())?;
+) -> Result<Vec<GrowingInterval>, NotFollowerDither> {
+    let found = growing_speeds(disc, speeds, STEPS)?;
     let orders =
         [Order::First, Order::Second].map(|order| (order, waves.clone().with_order(order)));
     let (start, end) = (*speeds.start(), *speeds.end());
@@ -418,7 +419,7 @@ impl Resonances {
             "warnings": study.warnings(),
         });
         if let Err(why) = &self.growing {
-            object["why"] = json!({ "growing": why });
+            object["why"] = json!({ "growing": why.to_string() });
         }
         if let Some(clear) = &self.clear {
             let mut inner = json!({
