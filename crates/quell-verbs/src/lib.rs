@@ -33,5 +33,5 @@ pub mod sound;
 pub mod status;
 pub mod words;
 
-pub use quell_input::{complaint, document, input, nearest};
+pub use quell_input::{complaint, document, input, nearest, said};
 pub use quell_study::{quantity, study};

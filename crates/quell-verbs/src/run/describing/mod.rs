@@ -32,7 +32,7 @@ use crate::study::{SystemStudy, UnitSystem};
 
 /// The failure of an average.
 fn failed(why: impl std::fmt::Display) -> Failure {
-    Failure::Failed { key: "friction".to_owned(), why: why.to_string() }
+    Failure::Failed { key: "friction".to_owned(), why: why.to_string().into() }
 }
 
 /// Rejects an amplitude that is not above 0.

@@ -61,7 +61,7 @@ pub(crate) fn at_end(complaint: Complaint, key: &str, path: &str) -> Complaint {
         key: format!("design.{key}"),
         origin: Origin::Whole,
         value: path.into(),
-        allowed,
+        allowed: allowed.into(),
         ..complaint
     }
 }

@@ -157,5 +157,5 @@ fn same_in_both_directions(
 }
 
 fn failed(why: String) -> Failure {
-    Failure::Failed { key: "--save".to_owned(), why }
+    Failure::Failed { key: "--save".to_owned(), why: why.into() }
 }

@@ -29,7 +29,7 @@ impl fmt::Display for RefusedStart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Failure::Wrong(complaints) => {
-                let allowed = complaints.iter().map(|complaint| complaint.allowed.as_str());
+                let allowed = complaints.iter().map(|complaint| &*complaint.allowed);
                 f.write_str(&allowed.collect::<Vec<_>>().join("; "))
             }
             Failure::Failed { why, .. } => f.write_str(why),

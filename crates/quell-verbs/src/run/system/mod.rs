@@ -26,7 +26,7 @@ use crate::words::{digits, more_digits};
 
 /// The failure of a verb with its reason.
 pub(in crate::run) fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
-    Failure::Failed { key: verb.to_owned(), why: why.to_string() }
+    Failure::Failed { key: verb.to_owned(), why: why.to_string().into() }
 }
 
 /// The failure of averaging.
