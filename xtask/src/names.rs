@@ -1,7 +1,8 @@
 //! `cargo xtask names`: fails when two types of the workspace have the same name.
 //!
 //! Types are the structs, enums, unions, traits and type aliases at the top level of a file of `crates/*/src` or `xtask/src`,
-//! tests left out. Associated types and types inside of functions or inline modules do not count.
+//! tests left out, and those that the macro `reasons` of quell-verbs defines. Associated types and types inside of functions or inline
+//! modules do not count.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -62,7 +63,10 @@ pub(crate) fn run(root: &Path, mode: RatchetMode) -> Result<(), String> {
 
 /// Adds the types that a file defines.
 fn define(definitions: &mut BTreeMap<String, Places>, path: &str, text: &str) {
+    let mut in_reasons = false;
     for (number, line) in source::production(text).lines().enumerate() {
+        in_reasons = if in_reasons { line != "}" } else { line == "reasons! {" };
+        let line = if in_reasons { line.strip_prefix("    ").unwrap_or(line) } else { line };
         if let Some(name) = defined(line) {
             let places = definitions.entry(name.to_owned()).or_default();
             places.push((path.to_owned(), number + 1));
@@ -145,6 +149,12 @@ mod tests {
     fn tests_comments_and_inner_types_do_not_count() {
         let text = "struct A;\n#[cfg(test)]\nmod tests {\nstruct A;\n}\n/*\nstruct A;\n*/\nfn f() {\n    struct A;\n}\n";
         assert_eq!(found(&[("a.rs", text)]), []);
+    }
+
+    #[test]
+    fn reasons_of_a_macro_count() {
+        let text = "reasons! {\n    /// Why.\n    pub enum A {\n        B(A),\n        ;\n    }\n}\nstruct A;\nfn f() {\n    struct A;\n}\n";
+        assert_eq!(found(&[("a.rs", text)]), [("A".to_owned(), vec![3, 8])]);
     }
 
     #[test]

@@ -50,27 +50,13 @@ impl StudyArguments {
             path: "solver.tolerance".to_owned(),
             node: Node::from_argument(text, "--tolerance"),
         }));
-        let study = complaints.take(Study::read(&self.study, &changes).map_err(belts_alone));
+        let study = complaints.take(Study::read(&self.study, &changes));
         let study = complaints.finish(study)?;
         match &self.at_time {
             Some(text) => at_time(&study, text),
             None => Ok(study),
         }
     }
-}
-
-/// Complaints about a study in which --tolerance names no key say that only belts have it.
-fn belts_alone(why: Failure) -> Failure {
-    let Failure::Wrong(complaints) = why else { return why };
-    let origin = Origin::Argument("--tolerance");
-    let named = |complaint: Complaint| {
-        if complaint.fault != Fault::Unknown || complaint.origin != origin {
-            return complaint;
-        }
-        let allowed = "left out: only runs of belts have a tolerance; every step of systems and discs is accurate to rounding";
-        Complaint::new(Fault::Conflict, "--tolerance", origin, Json::Null, allowed)
-    };
-    Failure::Wrong(complaints.into_iter().map(named).collect::<Vec<Complaint>>().into())
 }
 
 /// The files that a study was read from; none if it could not be read, in which case nothing is computed anyway.

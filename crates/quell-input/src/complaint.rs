@@ -5,6 +5,8 @@ use std::ops::Deref;
 
 use serde_json::{Value, json};
 
+use crate::said::Said;
+
 /// Where a wrong value was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Origin {
@@ -78,7 +80,7 @@ pub struct Complaint {
     /// The value as given; null if no value was given.
     pub value: Value,
     /// What is allowed instead.
-    pub allowed: String,
+    pub allowed: Said,
     /// The nearest valid key or value.
     pub suggestion: Option<String>,
 }
@@ -90,7 +92,7 @@ impl Complaint {
         key: impl Into<String>,
         origin: Origin,
         value: impl Into<Value>,
-        allowed: impl Into<String>,
+        allowed: impl Into<Said>,
     ) -> Self {
         Self {
             fault,
@@ -103,11 +105,7 @@ impl Complaint {
     }
 
     /// A complaint about the value of a command-line option.
-    pub fn option(
-        option: &'static str,
-        value: impl Into<Value>,
-        allowed: impl Into<String>,
-    ) -> Self {
+    pub fn option(option: &'static str, value: impl Into<Value>, allowed: impl Into<Said>) -> Self {
         Self::new(Fault::Value, option, Origin::Argument(option), value, allowed)
     }
 
@@ -124,7 +122,7 @@ impl Complaint {
             "key": self.key,
             "line": self.origin.line(),
             "value": self.value,
-            "allowed": self.allowed,
+            "allowed": &*self.allowed,
             "suggestion": self.suggestion,
             "fault": self.fault.name(),
             "message": self.to_string(),
@@ -259,7 +257,7 @@ pub enum Failure {
         /// What failed, such as the path that could not be written.
         key: String,
         /// The reason, in one sentence.
-        why: String,
+        why: Said,
     },
 }
 
@@ -283,7 +281,7 @@ impl Failure {
                 "allowed": null,
                 "suggestion": null,
                 "fault": "failed",
-                "message": why,
+                "message": &**why,
             })],
         };
         json!({ "ok": false, "errors": errors })

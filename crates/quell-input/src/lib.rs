@@ -3,6 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`complaint`] | errors: the key, the line, the value and the allowed values; how a task fails |
+//! | [`said`] | texts for every door: what the command line and Python spell differently |
 //! | [`nearest`] | the word that was meant |
 //! | [`input`] | regular files alone are opened, and outputs never overwrite what was read |
 //! | [`study_file`], [`document`] | the text of a study, and its TOML with the line of every value |
@@ -28,6 +29,7 @@ pub mod measurement;
 pub mod modes_file;
 pub mod nearest;
 pub mod record;
+pub mod said;
 pub mod sample_file;
 pub mod study_file;
 pub mod wave_file;

@@ -149,7 +149,7 @@ fn message(panic: &(dyn Any + Send)) -> String {
 fn internal(why: &str) -> Failure {
     Failure::Failed {
         key: "quell".to_owned(),
-        why: format!("internal error of Quell, not of the study; please report it: {why}"),
+        why: format!("internal error of Quell, not of the study; please report it: {why}").into(),
     }
 }
 

@@ -38,7 +38,7 @@ fn pythonic(mut complaint: Complaint) -> Complaint {
         complaint.origin = Origin::Whole;
     }
     complaint.key = key_in_python(&complaint.key);
-    complaint.allowed = in_python(&complaint.allowed);
+    complaint.allowed = in_python(&complaint.allowed).into();
     complaint
 }
 

@@ -1,28 +1,41 @@
 //! Translation of messages from the command line to the Python API.
 //!
-//! Phrases that differ in Python are listed; any other option is replaced by the name of the corresponding argument. Code
-//! between backticks and dashes within a word or a path are left unchanged.
+//! What a message mentions by a type is spelled as in Python; an option in its text is replaced by the name of the corresponding
+//! argument. Code between backticks and dashes within a word or a path are left unchanged.
 
-/// Phrases of the command line, and their replacements in Python.
-const PHRASES: &[(&str, &str)] = &[
-    ("the same command with --resume continues", "the same call with resume=True continues"),
-    ("--resume continues", "resume=True continues"),
-    ("--save FILE.zarr keeps finished chunks", "store=\"FILE.zarr\" keeps finished chunks"),
-    (
-        "or on the command line: --set sweep[0].parameter=dither.amplitude --set 'sweep[0].values=[0.1, 0.2]'",
-        "or axes={\"dither.amplitude\": [0.1, 0.2]}",
-    ),
-    ("`stability --parameter`", "`stability(parameter=…)`"),
-    ("stability --parameter is", "stability(parameter=…) is"),
-    ("stability --exact is", "stability(exact=True) is"),
-    ("the keys that `quell schema` lists", "the keys that quell.schema() lists"),
-    ("`quell stability` and `quell map --quantity growth`", "`stability()` and `map(\"growth\")`"),
-];
+use quell::said::{Mention, Said};
 
-/// A message in terms of the Python API.
-pub(crate) fn in_python(text: &str) -> String {
-    let text =
-        PHRASES.iter().fold(text.to_owned(), |text, (phrase, new)| text.replace(phrase, new));
+/// A text in terms of the Python API.
+pub(crate) fn in_python(said: &Said) -> String {
+    said.spelled(spelled, outside_code)
+}
+
+/// What the doors spell differently, in Python.
+fn spelled(mention: &Mention) -> String {
+    let text = match mention {
+        Mention::Verb(name) => return called(name),
+        Mention::SameRequest => "the same call",
+        Mention::Resume => "resume=True",
+        Mention::Store => "store=\"FILE.zarr\"",
+        Mention::ValuesOfAmplitude => "axes={\"dither.amplitude\": [0.1, 0.2]}",
+        Mention::Schema => "quell.schema()",
+        Mention::Stability => "`stability()`",
+        Mention::MapOfGrowth => "`map(\"growth\")`",
+    };
+    text.to_owned()
+}
+
+/// A verb with an option, as a call.
+fn called(verb: &str) -> String {
+    match verb {
+        "stability --parameter" => "stability(parameter=…)".to_owned(),
+        "stability --exact" => "stability(exact=True)".to_owned(),
+        verb => outside_code(verb),
+    }
+}
+
+/// A text with names of arguments in place of options, except in code between backticks.
+fn outside_code(text: &str) -> String {
     let parts = text.split('`').enumerate();
     // Every second part is code.
     let translated: Vec<String> = parts

@@ -3,6 +3,7 @@
 #[path = "../src/words.rs"]
 mod words;
 
+use quell::said::{Mention, Said};
 use words::{in_python, key_in_python};
 
 #[test]
@@ -22,32 +23,33 @@ fn options_are_named_as_arguments() {
         ("--ramp-", "ramp-"),
         ("", ""),
     ] {
-        assert_eq!(in_python(text), expected);
+        assert_eq!(in_python(&Said::from(text)), expected);
     }
 }
 
 #[test]
 fn ways_are_those_of_python() {
-    for (text, expected) in [
+    let verb = |name: &str| Mention::Verb(name.to_owned());
+    for (mention, command_line, python) in [
+        (Mention::Resume, "--resume", "resume=True"),
+        (Mention::SameRequest, "the same command", "the same call"),
+        (Mention::Store, "--save FILE.zarr", "store=\"FILE.zarr\""),
         (
-            "already exists: --resume continues it; or choose another name",
-            "already exists: resume=True continues it; or choose another name",
+            Mention::ValuesOfAmplitude,
+            "on the command line: --set sweep[0].parameter=dither.amplitude --set 'sweep[0].values=[0.1, 0.2]'",
+            "axes={\"dither.amplitude\": [0.1, 0.2]}",
         ),
-        (
-            "stopped; 3 of 4 chunks kept, 1 left: the same command with --resume continues",
-            "stopped; 3 of 4 chunks kept, 1 left: the same call with resume=True continues",
-        ),
-        (
-            "stopped; nothing was kept: --save FILE.zarr keeps finished chunks, and --resume continues",
-            "stopped; nothing was kept: store=\"FILE.zarr\" keeps finished chunks, and resume=True continues",
-        ),
-        ("the keys that `quell schema` lists", "the keys that quell.schema() lists"),
-        (
-            "several loads; `quell stability` and `quell map --quantity growth` take any number of loads",
-            "several loads; `stability()` and `map(\"growth\")` take any number of loads",
-        ),
+        (Mention::Schema, "`quell schema`", "quell.schema()"),
+        (Mention::Stability, "`quell stability`", "`stability()`"),
+        (Mention::MapOfGrowth, "`quell map --quantity growth`", "`map(\"growth\")`"),
+        (verb("stability --exact"), "stability --exact", "stability(exact=True)"),
+        (verb("stability --parameter"), "stability --parameter", "stability(parameter=…)"),
+        (verb("friction --measured"), "friction --measured", "friction measured"),
+        (verb("orbit"), "orbit", "orbit"),
     ] {
-        assert_eq!(in_python(text), expected);
+        let said = Said::from("first --from, ").mention(mention).text(" and --save");
+        assert_eq!(said.to_string(), format!("first --from, {command_line} and --save"));
+        assert_eq!(in_python(&said), format!("first from_, {python} and store"));
     }
 }
 
@@ -62,7 +64,7 @@ fn code_paths_and_dashes_stay() {
         "--Save",
         "x′ ≥ 0 – τ",
     ] {
-        assert_eq!(in_python(text), text);
+        assert_eq!(in_python(&Said::from(text)), text);
     }
 }
 

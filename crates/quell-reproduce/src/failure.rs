@@ -6,5 +6,5 @@ use quell::complaint::Failure;
 
 /// The failure of a computation that returned no value.
 pub(super) fn failed(name: &str, why: &impl Display) -> Failure {
-    Failure::Failed { key: format!("reproduce {name}"), why: why.to_string() }
+    Failure::Failed { key: format!("reproduce {name}"), why: why.to_string().into() }
 }

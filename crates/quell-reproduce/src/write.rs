@@ -21,7 +21,7 @@ pub(super) fn prepare(directory: &Path) -> Result<(), Failure> {
     fs::create_dir_all(directory).map_err(|error| reject(format!("cannot be created: {error}")))?;
     Output::prepare_plain(&directory.join("claims.csv"), OPTION, &["csv"], &Inputs::NONE)
         .map(drop)
-        .map_err(|complaint| reject(complaint.allowed))
+        .map_err(|complaint| reject(complaint.allowed.into()))
 }
 
 /// Writes one file, completely or not at all.

@@ -117,8 +117,13 @@ impl Fields {
         self.study.map_or("ω₀", rate_unit)
     }
 
-    /// Adds a growth rate; or null with the reason.
-    pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
+    /// Adds a growth rate.
+    pub fn rate(&mut self, name: &str, value: f64) -> &mut Self {
+        self.known_rate(name, Ok::<_, &str>(value))
+    }
+
+    /// Adds a growth rate, or null with the reason.
+    pub fn known_rate(&mut self, name: &str, value: Result<f64, impl Display>) -> &mut Self {
         self.units.insert(name.to_owned(), self.rate_unit().into());
         self.finite(name, value)
     }
@@ -130,10 +135,10 @@ impl Fields {
         self.known_plain(name, value.map_err(|why| why.to_string()).and_then(finite))
     }
 
-    /// Adds a growth rate in decibels per second, of a study in SI; or null with the reason.
-    pub fn decibels(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
+    /// Adds a growth rate in decibels per second, of a study in SI.
+    pub fn decibels(&mut self, name: &str, value: f64) -> &mut Self {
         self.units.insert(name.to_owned(), "dB/s".into());
-        self.known_plain(name, value)
+        self.plain(name, value)
     }
 
     /// Adds an object inside this one.

@@ -25,6 +25,7 @@ pub mod noise;
 pub mod output;
 pub mod parallel;
 pub mod range;
+mod reasons;
 mod removed_mean;
 pub mod run;
 pub mod running;
@@ -32,5 +33,5 @@ pub mod sound;
 pub mod status;
 pub mod words;
 
-pub use quell_input::{complaint, document, input, nearest};
+pub use quell_input::{complaint, document, input, nearest, said};
 pub use quell_study::{quantity, study};

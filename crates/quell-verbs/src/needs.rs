@@ -2,6 +2,7 @@
 //! the verbs.
 
 use crate::complaint::{Complaint, Origin};
+use crate::said::{Mention, Said};
 use crate::study::{Kind, Study, not_available, not_periodic, varies_in_time};
 
 /// The equations that a question is about.
@@ -79,10 +80,15 @@ impl Needs {
             return Some(varies_in_time(what, table));
         }
         if !self.suit(study) {
-            return Some(not_available(what, study.kind().name(), Origin::Whole));
+            return Some(not_available(verb_said(what), study.kind().name(), Origin::Whole));
         }
         study.noise().filter(|_| !self.under_noise).map(|key| not_periodic(what, key))
     }
+}
+
+/// The name of a verb in a text.
+fn verb_said(name: &str) -> Said {
+    Said::default().mention(Mention::Verb(name.to_owned()))
 }
 
 /// A verb, or an option of it with other needs.

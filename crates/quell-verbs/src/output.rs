@@ -163,7 +163,7 @@ impl Output {
         };
         written.map(|()| self.given.clone()).map_err(|error| Failure::Failed {
             key: self.given.display().to_string(),
-            why: format!("cannot be written: {error}"),
+            why: format!("cannot be written: {error}").into(),
         })
     }
 

@@ -49,7 +49,7 @@ impl Running<'_> {
         }
         pool.build().map_err(|why| Failure::Failed {
             key: "--threads".to_owned(),
-            why: format!("no threads could be started: {why}"),
+            why: format!("no threads could be started: {why}").into(),
         })
     }
 }

@@ -86,6 +86,12 @@ pub enum Status {
     Missing = 255,
 }
 
+impl std::fmt::Display for Status {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.about())
+    }
+}
+
 impl Status {
     /// Every status, in the order of the codes.
     pub const ALL: &'static [Self] = &[

@@ -163,7 +163,7 @@ pub mod table_file;
 pub mod template;
 pub mod verbs;
 
-pub use quell_input::{complaint, document, input, measurement, nearest, record};
+pub use quell_input::{complaint, document, input, measurement, nearest, record, said};
 pub use quell_maps::{map, store, sweep};
 pub use quell_plot as plot;
 pub use quell_study::{quantity, schema, study};

@@ -111,7 +111,7 @@ impl CommentedStudy {
             // If removing the file fails too, nothing else can be done.
             let _ = std::fs::remove_file(path);
             let key = path.display().to_string();
-            return Err(Failure::Failed { key, why: format!("cannot be written: {error}") });
+            return Err(Failure::Failed { key, why: format!("cannot be written: {error}").into() });
         }
         Ok(path.to_owned())
     }

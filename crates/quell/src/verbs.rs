@@ -3,8 +3,6 @@
 //! The command line and Python call [`verbs`] for any study. A belt is answered as its system; a disc has answers of its own where
 //! the waves of its plate decide.
 
-use std::fmt::Write as _;
-
 use crate::cite::{Sources, sources_of};
 use crate::complaint::Failure;
 use crate::needs::{StudyVerb, VERBS};
@@ -87,7 +85,8 @@ impl Verbs {
                 _ => (*known).to_owned(),
             };
             let names: Vec<String> = names.iter().map(named).collect();
-            let _ = write!(complaint.allowed, "; its verbs are {}", names.join(", "));
+            let verbs = format!("; its verbs are {}", names.join(", "));
+            complaint.allowed = complaint.allowed.text(verbs);
         }
         Err(complaint.into())
     }

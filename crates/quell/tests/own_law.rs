@@ -17,7 +17,7 @@ fn complaints(friction: &str) -> Vec<(String, Option<usize>, String)> {
     let wrong = study(friction).expect_err(friction);
     wrong
         .into_iter()
-        .map(|complaint| (complaint.key, complaint.origin.line(), complaint.allowed))
+        .map(|complaint| (complaint.key, complaint.origin.line(), complaint.allowed.into()))
         .collect()
 }
 

@@ -147,7 +147,8 @@ mod tests {
             assert_eq!(verdict(name, package, Use::Normal).len(), 1, "{name} -> {package}");
         }
         for (name, package) in [
-            ("quell", "rayon"),
+            ("quell-verbs", "rayon"),
+            ("quell-maps", "rayon"),
             ("quell-cli", "clap"),
             ("quell-cli", "serde_json"),
             ("xtask", "toml"),

@@ -19,7 +19,9 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, command: &mut Command) -> Result<Answer, Failure> {
     let mut script = Vec::new();
     generate(arguments.shell, command, "quell", &mut script);
-    let script = String::from_utf8(script)
-        .map_err(|why| Failure::Failed { key: "completions".to_owned(), why: why.to_string() })?;
+    let script = String::from_utf8(script).map_err(|why| Failure::Failed {
+        key: "completions".to_owned(),
+        why: why.to_string().into(),
+    })?;
     Ok(Answer::new(false, &Json::Null, || script))
 }

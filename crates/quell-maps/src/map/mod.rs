@@ -4,6 +4,7 @@ mod boundary;
 mod outcome;
 mod shared;
 
+use quell_input::said::{Mention, Said};
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -100,7 +101,7 @@ fn same_program(plan: &Plan, store: &Store, number: usize, values: &[Data]) -> R
         key: store.path().display().to_string(),
         why: "this build of Quell computes a stored point with different bits (the store was made by another \
               build): choose another name"
-            .to_owned(),
+            .into(),
     })
 }
 
@@ -112,19 +113,27 @@ fn put(plan: &Plan, number: usize, values: &[Data], arrays: &mut [Data]) {
     }
 }
 
+/// A text, and how a stored map is continued.
+fn continues(said: Said) -> Said {
+    said.mention(Mention::SameRequest).text(" with ").mention(Mention::Resume).text(" continues")
+}
+
 fn stopped(store: Option<&Store>, left: usize, chunks: usize) -> Failure {
     let done = chunks - left;
     match store {
         Some(store) => Failure::Failed {
             key: store.path().display().to_string(),
-            why: format!(
-                "stopped; {done} of {chunks} chunks kept, {left} left: the same command with --resume continues"
+            why: continues(
+                format!("stopped; {done} of {chunks} chunks kept, {left} left: ").into(),
             ),
         },
         None => Failure::Failed {
             key: "map".to_owned(),
-            why: "stopped; nothing was kept: --save FILE.zarr keeps finished chunks, and --resume continues"
-                .to_owned(),
+            why: Said::from("stopped; nothing was kept: ")
+                .mention(Mention::Store)
+                .text(" keeps finished chunks, and ")
+                .mention(Mention::Resume)
+                .text(" continues"),
         },
     }
 }
@@ -133,11 +142,10 @@ fn interrupted(failure: Failure, store: Option<&Store>, left: usize, chunks: usi
     match (failure, store) {
         (Failure::Failed { key, why }, Some(_)) => Failure::Failed {
             key,
-            why: format!(
-                "{why}; {} of {chunks} chunks kept, {left} left: once the cause is fixed, the same command \
-                 with --resume continues",
+            why: continues(why.text(format!(
+                "; {} of {chunks} chunks kept, {left} left: once the cause is fixed, ",
                 chunks - left
-            ),
+            ))),
         },
         (failure, _) => failure,
     }

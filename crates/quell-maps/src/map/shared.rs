@@ -255,7 +255,7 @@ impl Shared {
     }
 
     fn failed(&self, why: String) -> Failure {
-        Failure::Failed { key: self.path().display().to_string(), why }
+        Failure::Failed { key: self.path().display().to_string(), why: why.into() }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Failures of stores, with the path of the store.
 
+use quell_input::said::{Mention, Said};
 use std::io;
 use std::path::Path;
 
@@ -23,16 +24,17 @@ impl Refused {
 }
 
 pub(super) fn failed(path: &Path, why: String) -> Failure {
-    Failure::Failed { key: path.display().to_string(), why }
+    Failure::Failed { key: path.display().to_string(), why: why.into() }
 }
 
-pub(super) fn complaint(path: &Path, allowed: impl Into<String>) -> Failure {
+pub(super) fn complaint(path: &Path, allowed: impl Into<Said>) -> Failure {
     let given = path.display().to_string();
     Complaint::new(Fault::Path, OPTION, Origin::Argument(OPTION), given, allowed).into()
 }
 
 pub(super) fn exists(path: &Path) -> Failure {
-    complaint(path, "already exists: --resume continues it; or choose another name")
+    let said = Said::from("already exists: ").mention(Mention::Resume);
+    complaint(path, said.text(" continues it; or choose another name"))
 }
 
 pub(super) fn changed(path: &Path, key: &str) -> Failure {

@@ -1,5 +1,6 @@
 //! The points of a map: the product of the axes of a study, the last axis fastest.
 
+use quell_input::said::{Mention, Said};
 use std::fmt::Write as _;
 
 use serde_json::Value as Json;
@@ -20,7 +21,7 @@ const EXAMPLE: &str = "at least one axis in the study, such as\n\
      to = 1.0\n\
      points = 20              # or values = [...]; spacing = \"log\"\n\
      \n\
-     or on the command line: --set sweep[0].parameter=dither.amplitude --set 'sweep[0].values=[0.1, 0.2]'";
+     or ";
 
 /// One axis of a map.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,8 +67,9 @@ impl Grid {
         };
         let sweeps = study.sweeps();
         if sweeps.is_empty() {
+            let allowed = Said::from(EXAMPLE).mention(Mention::ValuesOfAmplitude);
             let complaint =
-                Complaint::new(Fault::Missing, "[[sweep]]", Origin::Whole, Json::Null, EXAMPLE);
+                Complaint::new(Fault::Missing, "[[sweep]]", Origin::Whole, Json::Null, allowed);
             return Err(Box::new(complaint));
         }
         for (index, sweep) in sweeps.iter().enumerate() {

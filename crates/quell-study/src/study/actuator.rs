@@ -4,6 +4,7 @@ use quell_design::actuator::{Actuator, ActuatorKind, CoilActuator, MeasuredActua
 use quell_input::actuator_file::{ActuatorFile, COLUMNS, GivenColumn};
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table};
+use quell_input::said::Said;
 use quell_model::digits::digits;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::actuator::{
@@ -95,12 +96,12 @@ impl GivenNumbers<'_, '_> {
         self.number(parameter)
     }
 
-    fn missing(&mut self, key: &str, allowed: impl Into<String>) {
+    fn missing(&mut self, key: &str, allowed: impl Into<Said>) {
         let key = join(PATH, key);
         self.reader.complain(Complaint::new(Fault::Missing, key, self.header, Json::Null, allowed));
     }
 
-    fn conflict(&mut self, key: &str, origin: Origin, allowed: impl Into<String>) {
+    fn conflict(&mut self, key: &str, origin: Origin, allowed: impl Into<Said>) {
         let key = join(PATH, key);
         self.reader.complain(Complaint::new(Fault::Conflict, key, origin, Json::Null, allowed));
     }

@@ -299,7 +299,8 @@ impl<K: StudyKind + Into<Kind>> StudyOf<K> {
                         };
                         complaint.allowed = format!(
                             "a path and values that give valid studies; {what} must be {allowed}"
-                        );
+                        )
+                        .into();
                     }
                     let key = format!("sweep[{index}].parameter");
                     Complaint { key, origin, value: sweep.path.clone().into(), ..complaint }
@@ -321,7 +322,13 @@ impl<K: StudyKind + Into<Kind>> StudyOf<K> {
                 let key = format!("uncertainty.\"{path}\"");
                 complaints.extend(wrong.into_iter().map(|complaint| {
                     let allowed = uncertainty::beyond(path, value, &complaint);
-                    Complaint { key: key.clone(), origin, value: path.into(), allowed, ..complaint }
+                    Complaint {
+                        key: key.clone(),
+                        origin,
+                        value: path.into(),
+                        allowed: allowed.into(),
+                        ..complaint
+                    }
                 }));
             }
         }

@@ -2,6 +2,7 @@
 
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::Table;
+use quell_input::said::Said;
 use serde_json::Value as Json;
 
 use super::reader::Reader;
@@ -16,12 +17,12 @@ pub trait StudyKind: Clone {
 }
 
 /// The error of a verb or command that studies of this kind do not have.
-pub fn not_available(what: &str, kind: &str, origin: Origin) -> Complaint {
-    let allowed = format!("{what} is not available for a {kind} study");
+pub fn not_available(what: Said, kind: &str, origin: Origin) -> Complaint {
+    let allowed = what.text(format!(" is not available for a {kind} study"));
     Complaint::new(Fault::Conflict, kind, origin, Json::Null, allowed)
 }
 
 /// The error of a command that requires a study of one kind and is given one of another kind.
 pub(super) fn wrong_kind(required: &str, given: &str, origin: Origin) -> Complaint {
-    not_available(&format!("a command for a {required} study"), given, origin)
+    not_available(format!("a command for a {required} study").into(), given, origin)
 }

@@ -1,26 +1,77 @@
 //! Whether the bifurcation at a threshold is supercritical, and to which side a fold opens, in JSON and in sentences.
 
+use std::fmt::Display;
+
 use quell_dynamics::orbit::{PointForm, ThresholdKind};
+use quell_linear::steady::NoSteadySliding;
+use quell_model::RefusedNumbers;
 use quell_numerics::continuation::criticality::{Criticality, FirstLyapunov, NoFirstLyapunov};
 use quell_numerics::continuation::fold::{FoldCoefficient, FoldOpening};
 use serde_json::Value as Json;
 
 use crate::fields::Fields;
+use crate::reasons::reasons;
 
-/// Why the sign of a coefficient is not known.
-const DEGENERATE: &str = "the coefficient is zero within its error: the bifurcation is degenerate, and neither supercritical nor \
-                          subcritical could be decided";
+reasons! {
+    /// Why the first Lyapunov coefficient of a threshold is unknown.
+    pub enum NoLyapunovCoefficient {
+        /// The coefficient has no value.
+        NoValue(NoFirstLyapunov),
+        /// There is no study with the numbers of the threshold.
+        Refused(RefusedNumbers),
+        /// There is no steady sliding.
+        NoSliding(NoSteadySliding),
+        ;
+        /// The motion is averaged.
+        OfAverage =>
+            "not computed for averaged motion: `thresholds` gives that of the dithered response",
+    }
+}
+
+reasons! {
+    /// Why the criticality of a threshold is unknown.
+    pub enum NoCriticality {
+        /// The coefficient is unknown.
+        NoCoefficient(NoLyapunovCoefficient),
+        ;
+        /// The sign of the coefficient is unknown.
+        Degenerate =>
+            "the coefficient is zero within its error: the bifurcation is degenerate, and neither supercritical nor subcritical could be \
+             decided",
+    }
+}
+
+reasons! {
+    /// Why the side to which a threshold opens is unknown.
+    pub enum NoFoldOpening {
+        /// The coefficient of the fold is unknown.
+        NoCoefficient(NoFirstLyapunov),
+        ;
+        /// The threshold is of another kind.
+        NotFold => "two solutions exist on one side only of a fold",
+        /// The parameter does not move the branch.
+        Unmoved => "the parameter does not move the branch there",
+        /// The sign of the coefficient is unknown.
+        Degenerate => "the quadratic coefficient is zero within its error, as at a cusp",
+    }
+}
+
+/// The first Lyapunov coefficient of a threshold, or why it is unknown.
+pub type FoundLyapunov = Result<FirstLyapunov, NoLyapunovCoefficient>;
+
+/// Why a coefficient that is not finite is null.
+const BEYOND: &str = "the coefficient is beyond the range of floating-point numbers";
 
 /// What the sign of a coefficient says.
 ///
 /// # Errors
 /// Why nothing could be decided.
-pub fn decided(found: &Result<FirstLyapunov, String>) -> Result<Criticality, String> {
-    found.clone()?.criticality().ok_or_else(|| DEGENERATE.to_owned())
+pub fn decided(found: &FoundLyapunov) -> Result<Criticality, NoCriticality> {
+    found.clone()?.criticality().ok_or(NoCriticality::Degenerate)
 }
 
 /// A clause about a threshold after a separator and before an end; empty where nothing is decided.
-pub fn clause(found: &Result<FirstLyapunov, String>, separator: &str, end: &str) -> String {
+pub fn clause(found: &FoundLyapunov, separator: &str, end: &str) -> String {
     decided(found)
         .map_or_else(|_| String::new(), |found| format!("{separator}{}{end}", words(found)))
 }
@@ -40,14 +91,12 @@ type FoundFold = Option<Result<FoldCoefficient, NoFirstLyapunov>>;
 ///
 /// # Errors
 /// Why it is not known.
-pub fn opening(found: &FoundFold) -> Result<FoldOpening, String> {
-    let not_a_fold = "two solutions exist on one side only of a fold";
-    let found = found.ok_or_else(|| not_a_fold.to_owned())?.map_err(|why| match why {
-        NoFirstLyapunov::Singular => "the parameter does not move the branch there".to_owned(),
-        why => why.to_string(),
+pub fn opening(found: &FoundFold) -> Result<FoldOpening, NoFoldOpening> {
+    let found = found.ok_or(NoFoldOpening::NotFold)?.map_err(|why| match why {
+        NoFirstLyapunov::Singular => NoFoldOpening::Unmoved,
+        why => NoFoldOpening::NoCoefficient(why),
     })?;
-    let degenerate = "the quadratic coefficient is zero within its error, as at a cusp";
-    found.opening().ok_or_else(|| degenerate.to_owned())
+    found.opening().ok_or(NoFoldOpening::Degenerate)
 }
 
 /// A clause about a fold after a separator; empty where nothing is known or the threshold is of another kind.
@@ -63,7 +112,7 @@ pub(super) fn put_fold(fields: &mut Fields, [value, length]: [&str; 2], found: &
     let side = opening(found);
     match &side {
         Ok(side) => fields.plain("opens_towards", side.name()),
-        Err(why) => fields.unknown("opens_towards", why.clone()),
+        Err(why) => fields.unknown("opens_towards", why),
     };
     let unit = match (value, length) {
         (_, "1") => value.to_owned(),
@@ -78,10 +127,9 @@ pub(super) fn put_fold(fields: &mut Fields, [value, length]: [&str; 2], found: &
             fields.measured(names[0], &unit, *value).measured(names[1], &unit, *error);
         }
         (_, side) => {
-            let beyond = "the coefficient is beyond the range of floating-point numbers";
-            let why = side.err().unwrap_or_else(|| beyond.to_owned());
+            let why = side.err().map_or_else(|| BEYOND.to_owned(), |why| why.to_string());
             for name in names {
-                fields.unknown(name, why.clone());
+                fields.unknown(name, &why);
             }
         }
     }
@@ -89,7 +137,7 @@ pub(super) fn put_fold(fields: &mut Fields, [value, length]: [&str; 2], found: &
 
 /// Adds the forms of the points of a curve of one kind, in columns: a word, or `null` with its reason in the column of reasons.
 pub(super) fn put_columns(fields: &mut Fields, kind: ThresholdKind, forms: &[PointForm]) {
-    let lyapunov = |form: &PointForm| form.first_lyapunov.map_err(|why| why.to_string());
+    let lyapunov = |form: &PointForm| form.first_lyapunov.map_err(NoLyapunovCoefficient::from);
     let coefficients: Vec<_> = forms.iter().map(lyapunov).collect();
     put_criticalities(fields, &coefficients);
     if kind == ThresholdKind::Fold {
@@ -99,10 +147,10 @@ pub(super) fn put_columns(fields: &mut Fields, kind: ThresholdKind, forms: &[Poi
 }
 
 /// Adds the criticality of the points of a curve, likewise.
-pub(super) fn put_criticalities(fields: &mut Fields, found: &[Result<FirstLyapunov, String>]) {
+pub(super) fn put_criticalities(fields: &mut Fields, found: &[FoundLyapunov]) {
     let words = found.iter().map(|found| decided(found).map(Criticality::name));
     put_words(fields, "criticality", &words.collect::<Vec<_>>());
-    let value = |found: &Result<FirstLyapunov, String>| match found {
+    let value = |found: &FoundLyapunov| match found {
         Ok(found) if found.value.is_finite() => Json::from(found.value),
         _ => Json::Null,
     };
@@ -114,12 +162,12 @@ pub(super) fn put_criticalities(fields: &mut Fields, found: &[Result<FirstLyapun
     fields.plain(name, values);
 }
 
-fn put_words(fields: &mut Fields, name: &str, found: &[Result<&'static str, String>]) {
+fn put_words(fields: &mut Fields, name: &str, found: &[Result<&'static str, impl Display>]) {
     let words: Vec<Json> =
         found.iter().map(|word| word.as_ref().map_or(Json::Null, |word| (*word).into())).collect();
     let reasons: Vec<Json> = found
         .iter()
-        .map(|word| word.as_ref().err().map_or(Json::Null, |why| why.as_str().into()))
+        .map(|word| word.as_ref().err().map_or(Json::Null, |why| why.to_string().into()))
         .collect();
     let of_reasons = format!("{name}_reason");
     if words.iter().any(Json::is_null) {
@@ -132,7 +180,7 @@ fn put_words(fields: &mut Fields, name: &str, found: &[Result<&'static str, Stri
 }
 
 /// Adds the fields of a threshold. `length` is the unit of displacements.
-pub(super) fn put(fields: &mut Fields, length: &str, found: &Result<FirstLyapunov, String>) {
+pub(super) fn put(fields: &mut Fields, length: &str, found: &FoundLyapunov) {
     match decided(found) {
         Ok(criticality) => {
             fields
@@ -140,7 +188,7 @@ pub(super) fn put(fields: &mut Fields, length: &str, found: &Result<FirstLyapuno
                 .plain("criticality_reason", serde_json::Value::Null);
         }
         Err(why) => {
-            fields.unknown("criticality", why.clone()).plain("criticality_reason", why);
+            fields.unknown("criticality", &why).plain("criticality_reason", why.to_string());
         }
     }
     let unit = if length == "1" { length.to_owned() } else { format!("1/{length}²") };
@@ -151,13 +199,12 @@ pub(super) fn put(fields: &mut Fields, length: &str, found: &Result<FirstLyapuno
         }
         Ok(_) => {
             for name in names {
-                fields
-                    .unknown(name, "the coefficient is beyond the range of floating-point numbers");
+                fields.unknown(name, BEYOND);
             }
         }
         Err(why) => {
             for name in names {
-                fields.unknown(name, why.clone());
+                fields.unknown(name, why);
             }
         }
     }

@@ -1,16 +1,20 @@
 //! Lyapunov exponents of the motion on which a run ends, as `attractor` reports them.
 
 use quell_dynamics::motion::{
-    LyapunovExponent, LyapunovExponents, LyapunovVerdict, Motion, MotionStart,
+    Immobile, LyapunovExponent, LyapunovExponents, LyapunovVerdict, Motion, MotionStart,
+    NoExponents,
 };
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
+use quell_linear::steady::NoSteadySliding;
 use quell_model::System;
 use quell_model::units::Quantity;
+use quell_numerics::eigen::EigenError;
 
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::reasons::reasons;
 use crate::words::digits;
 
 /// Exponents that are computed at most: the largest of a large system.
@@ -110,29 +114,43 @@ pub struct MeasuredExponents {
     pub left_out: usize,
 }
 
+reasons! {
+    /// Why the Lyapunov exponents of a motion are unknown.
+    pub enum NoMeasuredExponents {
+        /// No motion can be computed.
+        Immobile(Immobile),
+        /// They could not be measured.
+        NotMeasured(NoExponents),
+        /// There is no steady sliding.
+        NoSliding(NoSteadySliding),
+        /// The eigenvalues of small motions are unknown.
+        Eigenvalues(EigenError),
+        ;
+    }
+}
+
 impl MeasuredExponents {
     /// Measures the exponents of a motion.
     ///
     /// # Errors
     /// Why they are not known.
-    pub fn of(motion: &MeasuredMotion<'_>, times: (f64, f64)) -> Result<Self, String> {
+    pub fn of(motion: &MeasuredMotion<'_>, times: (f64, f64)) -> Result<Self, NoMeasuredExponents> {
         let MeasuredMotion { system, state, moves_freely, judged } = *motion;
         if judged == JudgedMotion::SteadySliding {
             return Self::of_small_motions(system, state);
         }
-        let engine = Motion::new(system).map_err(|why| why.to_string())?;
+        let engine = Motion::new(system)?;
         let count = engine.size().min(MOST_EXPONENTS);
         let start = MotionStart { time: 0.0, state: state.to_vec() };
-        let found = engine.lyapunov_exponents(&start, times, count);
-        let found = found.map_err(|why| why.to_string())?;
+        let found = engine.lyapunov_exponents(&start, times, count)?;
         let left_out = engine.size() - count;
         Ok(Self { found, settle: Some(times.0), moves_freely, judged, left_out })
     }
 
     /// Those of steady sliding: the real parts of the eigenvalues, without a record.
-    fn of_small_motions(system: &System, state: &[f64]) -> Result<Self, String> {
-        let linear = Linearised::new(system).map_err(|why| why.to_string())?;
-        let found = spectrum(&linear, &linear.friction()).map_err(|why| why.to_string())?;
+    fn of_small_motions(system: &System, state: &[f64]) -> Result<Self, NoMeasuredExponents> {
+        let linear = Linearised::new(system)?;
+        let found = spectrum(&linear, &linear.friction())?;
         // An exponent and its interval are known to the bound on the eigenvalue.
         let exponents = found.motions.iter().map(|motion| LyapunovExponent::Rate {
             value: motion.eigenvalue.re,
@@ -243,9 +261,9 @@ impl MeasuredExponents {
     }
 
     /// A time of the record, or the reason for exponents without one.
-    fn recorded(&self, time: f64) -> Result<f64, String> {
+    fn recorded(&self, time: f64) -> Result<f64, &'static str> {
         let why = "the exponents are eigenvalues of small motions, not means over a record";
-        if self.are_eigenvalues() { Err(why.to_owned()) } else { Ok(time) }
+        if self.are_eigenvalues() { Err(why) } else { Ok(time) }
     }
 
     /// Adds the fields to an object.
@@ -278,26 +296,24 @@ impl MeasuredExponents {
                 .unknown("shift_in_time", "dither fixes the phase of the motion, or it is at rest"),
         };
         let deciding = self.found.deciding(self.moves_freely).map(|exponent| exponent.rate());
-        let deciding = deciding.filter(|rate| rate.is_finite()).ok_or_else(|| STICK.to_owned());
-        fields.rate("deciding", deciding);
+        let deciding = deciding.filter(|rate| rate.is_finite()).ok_or(STICK);
+        fields.known_rate("deciding", deciding);
         let dimension = self.found.kaplan_yorke_dimension(self.moves_freely);
-        let dimension = dimension.ok_or_else(|| {
-            "the errors of the exponents, or those that were not computed, leave it open".to_owned()
-        });
+        let dimension = dimension
+            .ok_or("the errors of the exponents, or those that were not computed, leave it open");
         fields.known("kaplan_yorke_dimension", Quantity::Ratio, dimension);
-        let not_periodic =
-            || "the motion has no multiplier: it is steady, or no period was found".to_owned();
+        let not_periodic = "the motion has no multiplier: it is steady, or no period was found";
         let expected = match self.judged {
             JudgedMotion::Periodic { radius, period } => {
                 let rate = libm::log(radius) / period;
-                if rate.is_finite() { Ok(rate) } else { Err(STICK.to_owned()) }
+                if rate.is_finite() { Ok(rate) } else { Err(STICK) }
             }
-            _ => Err(not_periodic()),
+            _ => Err(not_periodic),
         };
-        fields.rate("of_multiplier", expected);
+        fields.known_rate("of_multiplier", expected);
         match self.agrees() {
             Some(agrees) => fields.plain("agrees_with_multipliers", agrees),
-            None => fields.unknown("agrees_with_multipliers", not_periodic()),
+            None => fields.unknown("agrees_with_multipliers", not_periodic),
         };
         match self.contradiction() {
             Some(why) => fields.plain("contradiction", why),

@@ -1,12 +1,14 @@
 //! `attractor`: the motion on which a run ends, and its Lyapunov exponents.
 
-use quell_dynamics::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
+use quell_dynamics::attractor::{EndOfRun, MotionKind, NoEnd, SystemAttractor, end_of_run};
 use quell_dynamics::simulation::within;
 use quell_linear::pure_slip::period;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::exponents::{ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion};
+use super::exponents::{
+    ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion, NoMeasuredExponents,
+};
 use super::system::attractor::{in_words, put_attractor};
 use super::system::of_runs::beyond_laws;
 use super::system::periods::slowest_period;
@@ -33,9 +35,9 @@ pub struct FoundAttractor {
     /// The start in words.
     pub start: String,
     /// The motion, or why it is not known.
-    pub end: Result<EndOfRun, String>,
+    pub end: Result<EndOfRun, NoEnd>,
     /// Its exponents, if they were requested, or why they are not known.
-    pub exponents: Option<Result<MeasuredExponents, String>>,
+    pub exponents: Option<Result<MeasuredExponents, NoMeasuredExponents>>,
 }
 
 /// The motion on which the run of a study ends.
@@ -46,8 +48,7 @@ pub fn run(study: &SystemStudy, request: &AttractorRequest) -> Result<FoundAttra
     has_equations(study, "attractor")?;
     let system = study.system();
     let start = start_with(study, &request.start)?.state;
-    let end = within(STEPS_OF_A_SEARCH, || end_of_run(system, &study.observe(), &start))
-        .map_err(|why| why.to_string());
+    let end = within(STEPS_OF_A_SEARCH, || end_of_run(system, &study.observe(), &start));
     let exponents = request.lyapunov.map(|times| {
         let times = times.over(|| slowest_period(study, "--record"))?;
         let attractor = end.as_ref().ok().map(|end| &end.attractor);
@@ -124,8 +125,8 @@ impl FoundAttractor {
                 fields.plain("periods_until_settled", end.periods);
             }
             Err(why) => {
-                fields.unknown("attractor", why.clone());
-                fields.unknown("periods_until_settled", why.clone());
+                fields.unknown("attractor", why);
+                fields.unknown("periods_until_settled", why);
             }
         }
         match &self.exponents {
@@ -135,7 +136,7 @@ impl FoundAttractor {
                 fields.nested("lyapunov", inner);
             }
             Some(Err(why)) => {
-                fields.unknown("lyapunov", why.clone());
+                fields.unknown("lyapunov", why);
             }
             None => {}
         }

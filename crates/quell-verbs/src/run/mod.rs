@@ -46,7 +46,7 @@ use crate::complaint::Failure;
 
 /// The failure of an interrupted verb.
 fn stopped(verb: &str) -> Failure {
-    Failure::Failed { key: verb.to_owned(), why: "stopped; no results were kept".to_owned() }
+    Failure::Failed { key: verb.to_owned(), why: "stopped; no results were kept".into() }
 }
 
 /// `count` values at equal steps; both ends are included and exact.
@@ -57,5 +57,5 @@ fn evenly((from, to): (f64, f64), count: usize) -> Vec<f64> {
 }
 
 fn failed(why: impl std::fmt::Display) -> Failure {
-    Failure::Failed { key: "simulation".to_owned(), why: why.to_string() }
+    Failure::Failed { key: "simulation".to_owned(), why: why.to_string().into() }
 }

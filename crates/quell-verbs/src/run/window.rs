@@ -4,7 +4,7 @@
 use quell_dynamics::motion::{ContactMeans, ContactMeter, Motion, RowMeter};
 use quell_model::profile::Wave;
 use quell_model::units::{Quantity, UnitSystem};
-use quell_numerics::spectrum::{Peak, Spectrum};
+use quell_numerics::spectrum::{Peak, Spectrum, SpectrumError};
 use serde_json::Value as Json;
 
 use super::failed;
@@ -13,6 +13,7 @@ use super::system::start::start_of;
 use super::system::{frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Failure};
 use crate::fields::Fields;
+use crate::reasons::reasons;
 use crate::study::SystemStudy;
 
 /// Samples of the window.
@@ -20,6 +21,17 @@ const MOST_SAMPLES: f64 = 1_000_000.0;
 
 /// Samples per period of the fastest motion.
 const SAMPLES_PER_PERIOD: f64 = 32.0;
+
+reasons! {
+    /// Why a record has no strongest line.
+    pub enum NoStrongestLine {
+        /// It has no spectrum.
+        NoSpectrum(SpectrumError),
+        ;
+        /// Nothing moves.
+        NothingMoves => "nothing moves in the window",
+    }
+}
 
 /// What a run does between two of its times.
 #[derive(Clone, Debug)]
@@ -31,7 +43,7 @@ pub struct WindowedResponse {
     /// Time between two samples of the displacement.
     pub step: f64,
     /// The largest line of the spectrum, or why it has no line.
-    pub strongest: Result<Peak, String>,
+    pub strongest: Result<Peak, NoStrongestLine>,
     /// Names of the contacts, and what they did on average.
     pub contacts: Vec<(String, ContactMeans)>,
     /// Warnings: those of the study, about slip beyond the range of a law, and of the engine.
@@ -72,11 +84,10 @@ pub fn run(study: &SystemStudy, window: (f64, f64)) -> Result<WindowedResponse, 
     let mut warnings = study.warnings().to_vec();
     warnings.extend(beyond_laws(study, |contact| meter.largest_slip(contact)));
     warnings.extend(of_engine(system, &end));
-    let spectrum = Spectrum::of(&observed.samples, step).map_err(|why| why.to_string());
+    let spectrum = Spectrum::of(&observed.samples, step).map_err(NoStrongestLine::from);
     let strongest = spectrum.and_then(|spectrum| {
         let line = spectrum.largest_line(0.0, f64::INFINITY);
-        line.filter(|line| line.amplitude > 0.0)
-            .ok_or_else(|| "nothing moves in the window".to_owned())
+        line.filter(|line| line.amplitude > 0.0).ok_or(NoStrongestLine::NothingMoves)
     });
     let names = system.contacts.iter().map(|contact| contact.name.clone());
     let means = meter.means().unwrap_or_default();
@@ -111,7 +122,7 @@ impl WindowedResponse {
 
     /// Adds the numbers of the window and of its contacts.
     fn put(&self, fields: &mut Fields, units: UnitSystem) {
-        let line = |pick: fn(&Peak) -> f64| self.strongest.as_ref().map(pick).map_err(Clone::clone);
+        let line = |pick: fn(&Peak) -> f64| self.strongest.as_ref().map(pick);
         fields
             .number("from", Quantity::Time, self.window.0)
             .number("to", Quantity::Time, self.window.1)

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use quell_dynamics::response::SteadyFriction;
 use quell_linear::averaging::SlopeSide;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -13,7 +12,9 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::friction::{ContactCurves, ContactFriction, FrictionCurve, FrictionPoint, export};
+use crate::run::friction::{
+    ContactCurves, ContactFriction, FrictionCurve, FrictionPoint, MeasuredFriction, export,
+};
 use crate::run::law;
 use crate::run::system::velocity_in_words;
 use crate::study::{SystemSetup, SystemStudy};
@@ -114,7 +115,7 @@ fn one_sided<'a>(points: impl Iterator<Item = &'a FrictionPoint>) -> String {
 }
 
 /// The columns of the measured friction.
-fn measured_words(found: &Result<SteadyFriction, String>) -> String {
+fn measured_words(found: &MeasuredFriction) -> String {
     match found {
         Ok(found) => {
             let which = if found.base { "" } else { ", not the continuation of sliding" };
@@ -130,16 +131,16 @@ fn reasons(curve: &FrictionCurve) -> String {
     const MOST: usize = 4;
     let unknown = curve.points.iter().filter(|point| point.slip_velocity != 0.0);
     let unknown = unknown.filter_map(|point| {
-        Some(("unknown", point.slip_velocity, point.effective.as_ref().err()?.as_str()))
+        Some(("unknown", point.slip_velocity, point.effective.as_ref().err()?.to_string()))
     });
     let unmeasured = curve.points.iter().zip(curve.measured.iter().flatten());
     let unmeasured = unmeasured.filter_map(|(point, found)| {
-        Some(("not measured", point.slip_velocity, found.as_ref().err()?.as_str()))
+        Some(("not measured", point.slip_velocity, found.as_ref().err()?.to_string()))
     });
-    let mut reasons: Vec<((&str, &str), Vec<String>)> = Vec::new();
+    let mut reasons: Vec<((&str, String), Vec<String>)> = Vec::new();
     for (what, slip, why) in unknown.chain(unmeasured) {
         let at = figure(slip);
-        match reasons.iter_mut().find(|(known, _)| *known == (what, why)) {
+        match reasons.iter_mut().find(|((kind, known), _)| (*kind, known) == (what, &why)) {
             Some((_, places)) => places.push(at),
             None => reasons.push(((what, why), vec![at])),
         }

@@ -17,7 +17,8 @@ use crate::plot::Figure;
 use crate::run::disc;
 use crate::run::disc::stability::DiscStability;
 use crate::run::stability::{
-    DECIBELS, LOOKED_AT, LimitStability, OneMassStability, SlidingStability, becomes, kind,
+    DECIBELS, LOOKED_AT, LimitStability, NoStableAmplitude, OneMassStability, SlidingStability,
+    becomes, kind,
 };
 use crate::study::{DiscSetup, DiscStudy, SystemSetup, SystemStudy};
 
@@ -248,7 +249,7 @@ fn put_limit(
 /// The amplitude from which every surface velocity is stable.
 fn put_everywhere_stable(
     text: &mut String,
-    (one, ratio): (&OneMassStability, &Result<f64, String>),
+    (one, ratio): (&OneMassStability, &Result<f64, NoStableAmplitude>),
     with: &impl Fn(Quantity, f64) -> String,
 ) {
     let label = "stable at every surface velocity";

@@ -93,12 +93,13 @@ fn table(done: &WaveformComparison, unit_of: impl Fn(Quantity) -> Option<&'stati
 fn notes(done: &WaveformComparison, unit: Option<&str>) -> String {
     let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
     let of = |row: &ComparedWaveform| {
-        let averaged = row.averaged.as_ref().err().cloned();
+        let averaged = row.averaged.as_ref().err().map(ToString::to_string);
         let power = row.unit.as_ref().err();
         let power = power.filter(|_| averaged.is_none());
         let power = power.map(|why| format!("no power, stroke and velocity: {why}"));
         // The same reason is said once.
-        let exact = row.exact.as_ref().err().filter(|why| Some(*why) != averaged.as_ref());
+        let exact = row.exact.as_ref().err().map(ToString::to_string);
+        let exact = exact.filter(|why| Some(why) != averaged.as_ref());
         let exact = exact.map(|why| format!("no exact amplitude: {why}"));
         let ends = [("exactly", row.exact.as_ref()), ("by averaging", row.averaged.as_ref())];
         let [lost, until] = ends.map(|(by, least)| {

@@ -75,7 +75,7 @@ pub fn write(figure: &Figure, output: Output) -> Result<String, Failure> {
 /// The failure for a figure that cannot be drawn.
 #[expect(clippy::needless_pass_by_value, reason = "consumes the error, for `map_err`")]
 fn undrawable(why: PlotError) -> Failure {
-    Failure::Failed { key: "--plot".to_owned(), why: why.to_string() }
+    Failure::Failed { key: "--plot".to_owned(), why: why.to_string().into() }
 }
 
 /// Adds the intervals of a parameter in which the base response is unstable to a panel.

@@ -23,7 +23,7 @@ const WIDE: f64 = 3.5;
 /// # Errors
 /// [`Failure::Failed`] if no periodic motion was found.
 pub fn orbit(study: &SystemStudy, done: &PeriodicResponse) -> Result<Figure, Failure> {
-    let why = || Failure::Failed { key: "--plot".to_owned(), why: done.sentence(study) };
+    let why = || Failure::Failed { key: "--plot".to_owned(), why: done.sentence(study).into() };
     let found = done.found.as_ref().ok_or_else(why)?;
     Ok(Figure::grid(2, [plane(study, found), multipliers(found)])
         .size(Size::Frame(280.0, 260.0))

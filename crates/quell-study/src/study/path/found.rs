@@ -2,6 +2,7 @@
 
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
+use quell_input::said::Said;
 use serde_json::Value as Json;
 
 use crate::study::vocabulary::Key;
@@ -82,10 +83,10 @@ impl LostPath {
         self,
         key: impl Into<String>,
         (origin, given): (Origin, Json),
-        (fault, otherwise): (Fault, &str),
+        (fault, otherwise): (Fault, impl Into<Said>),
     ) -> Complaint {
         let fault = if self.allowed.is_some() { self.fault } else { fault };
-        let allowed = self.allowed.unwrap_or_else(|| otherwise.to_owned());
+        let allowed = self.allowed.map_or_else(|| otherwise.into(), Said::from);
         Complaint::new(fault, key, origin, given, allowed).suggesting(self.nearest)
     }
 }

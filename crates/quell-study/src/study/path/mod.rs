@@ -11,6 +11,7 @@ use std::fmt::Write as _;
 
 use quell_input::complaint::{Complaint, Fault};
 use quell_input::document::{Node, Table, Value};
+use quell_input::said::{Mention, Said};
 use quell_model::parameter::DITHER_AMPLITUDE;
 
 use super::address::{NumberAddress, units_of};
@@ -120,7 +121,8 @@ pub(in crate::study) fn amplitude_key(document: &Table, path: &str) -> Option<(u
 /// A path that does not exist, with the nearest one.
 pub(super) fn set(document: &mut Table, path: &str, node: &Node) -> Result<(), Box<Complaint>> {
     let found = follow(document, path).map_err(|lost| {
-        let unknown = (Fault::Unknown, "the keys that `quell schema` lists");
+        let keys = Said::from("the keys that ").mention(Mention::Schema).text(" lists");
+        let unknown = (Fault::Unknown, keys);
         Box::new(lost.complaint(path, (node.origin, node.given()), unknown))
     })?;
     put(document, &found, node);

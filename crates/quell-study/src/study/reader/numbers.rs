@@ -2,6 +2,7 @@
 
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
+use quell_input::said::Said;
 use quell_model::digits::digits;
 use quell_model::friction::expression::NumberFormula;
 use quell_model::parameter::{Bounds, Parameter};
@@ -153,7 +154,7 @@ impl Reader {
         &mut self,
         key: impl Into<String>,
         header: Origin,
-        allowed: impl Into<String>,
+        allowed: impl Into<Said>,
     ) {
         self.complain(Complaint::new(Fault::Missing, key, header, Json::Null, allowed));
     }

@@ -5,6 +5,7 @@ use std::fmt::Display;
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
 use quell_input::nearest;
+use quell_input::said::Said;
 use serde_json::Value as Json;
 
 use super::Reader;
@@ -61,7 +62,7 @@ impl Reader {
     }
 
     /// Reports an invalid value.
-    pub(in crate::study) fn wrong(&mut self, key: &str, node: &Node, allowed: impl Into<String>) {
+    pub(in crate::study) fn wrong(&mut self, key: &str, node: &Node, allowed: impl Into<Said>) {
         self.complain(Complaint::new(Fault::Value, key, node.origin, node.given(), allowed));
     }
 
@@ -83,7 +84,7 @@ impl Reader {
         &mut self,
         key: &str,
         node: &Node,
-        allowed: impl Into<String>,
+        allowed: impl Into<Said>,
     ) {
         if self.complaints.iter().all(|known| known.key != key) {
             self.wrong(key, node, allowed);

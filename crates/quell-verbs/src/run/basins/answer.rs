@@ -79,7 +79,7 @@ impl Portrait {
         let subject = if self.is_dithered { "The base response" } else { "Steady sliding" };
         match &self.local {
             Ok(verdict) => format!("{subject} is {verdict}."),
-            Err(why) => format!("{}.", capital(why)),
+            Err(why) => format!("{}.", capital(&why.to_string())),
         }
     }
 
@@ -98,7 +98,7 @@ impl Portrait {
     fn put(&self, fields: &mut Fields, study: &SystemStudy) {
         match &self.local {
             Ok(verdict) => fields.plain("local_verdict", *verdict),
-            Err(why) => fields.unknown("local_verdict", why.as_str()),
+            Err(why) => fields.unknown("local_verdict", why),
         };
         Share::put_quiet(fields, self.quiet);
         let attractors = self.basins.iter().map(|basin| {

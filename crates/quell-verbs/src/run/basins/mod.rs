@@ -25,7 +25,7 @@ use quell_dynamics::simulation::within;
 
 use super::protocol::Protocol;
 use super::slip::SlipReached;
-use super::system::attractor::local_verdict;
+use super::system::attractor::{NoLocalVerdict, local_verdict};
 use super::system::tracked::{TrackRequest, understood};
 use super::system::{failed, has_equations};
 use super::varied::{MOST_VALUES, Range};
@@ -83,7 +83,7 @@ pub struct Portrait {
     /// Whether a motion with the period of the dither may vibrate in the band of the vibration.
     pub in_band: bool,
     /// Verdict on the base response, without dither on steady sliding; or why it is unknown.
-    pub local: Result<&'static str, String>,
+    pub local: Result<&'static str, NoLocalVerdict>,
     /// The motions, quiescent ones first, then the largest share first.
     pub basins: Vec<FoundBasin>,
     /// The motion of each start; `None` if its outcome is unknown.

@@ -1,5 +1,7 @@
 //! Answers where the outcome of starts is unknown.
 
+use quell_dynamics::orbit::NoOrbit;
+
 use super::*;
 use crate::study::{Study, SystemStudy};
 
@@ -46,10 +48,10 @@ fn unknown_ends_reach_nothing() {
         found(None, vec![at(None)]).sentence(&study),
         "The outcome of 3 starts is unknown. The base response is stable."
     );
-    let unknown = Portrait { local: Err("it was not found".to_owned()), ..portrait.clone() };
+    let unknown = Portrait { local: Err(NoOrbit::NoDither.into()), ..portrait.clone() };
     assert_eq!(
         found(None, vec![unknown]).sentence(&study),
-        "The outcome of 3 starts is unknown. It was not found."
+        "The outcome of 3 starts is unknown. Without dither the response has no prescribed period."
     );
     let found = found(Some(range), vec![at(Some(1.0)), at(Some(2.0))]);
     let sentence = found.sentence(&study);

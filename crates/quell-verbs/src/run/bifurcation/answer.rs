@@ -248,7 +248,7 @@ fn put(study: &SystemStudy, point: &SweepPoint) -> Fields {
     fields.plain("value", point.value);
     match &point.local {
         Ok(verdict) => fields.plain("local_verdict", *verdict),
-        Err(why) => fields.unknown("local_verdict", why.as_str()),
+        Err(why) => fields.unknown("local_verdict", why),
     };
     match &point.end {
         Ok(end) => {
@@ -256,7 +256,7 @@ fn put(study: &SystemStudy, point: &SweepPoint) -> Fields {
             put_attractor(&mut fields, &end.attractor, study);
         }
         Err(why) => {
-            fields.unknown("kind", why.as_str());
+            fields.unknown("kind", why);
         }
     }
     fields

@@ -6,11 +6,11 @@ mod shared;
 
 use std::sync::atomic::Ordering;
 
-use quell_dynamics::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
+use quell_dynamics::attractor::{EndOfRun, MotionKind, NoEnd, SystemAttractor, end_of_run};
 use quell_dynamics::simulation::within;
 
 use super::protocol::Protocol;
-use super::system::attractor::local_verdict;
+use super::system::attractor::{NoLocalVerdict, local_verdict};
 use super::system::tracked::{TrackRequest, understood};
 use super::system::{failed, has_equations};
 use super::thresholds::ends_are_valid;
@@ -37,11 +37,11 @@ pub struct SweepPoint {
     /// The parameter.
     pub value: f64,
     /// Verdict on the base response, without dither on steady sliding; or why it is unknown.
-    pub local: Result<&'static str, String>,
+    pub local: Result<&'static str, NoLocalVerdict>,
     /// Whether some dither acts here.
     pub is_dithered: bool,
     /// The motion that the sweep is on, or why it cannot be computed.
-    pub end: Result<EndOfRun, String>,
+    pub end: Result<EndOfRun, NoEnd>,
 }
 
 impl SweepPoint {
@@ -151,7 +151,7 @@ fn point(
         Some(state) => state,
         None => Protocol::Study.state(&study, system)?,
     };
-    let end = end_of_run(system, &study.observe(), &begun).map_err(|why| why.to_string());
+    let end = end_of_run(system, &study.observe(), &begun);
     let state = end.as_ref().map_or(begun, |end| end.attractor.state.clone());
     let local = local_verdict(system);
     let is_dithered = system.is_dithered();

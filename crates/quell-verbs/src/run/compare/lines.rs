@@ -4,6 +4,7 @@ use quell_numerics::order::{ascending_by, descending_by};
 use quell_numerics::spectrum::Peak;
 
 use super::spectra::ComparedSpectrum;
+use crate::reasons::reasons;
 
 /// Lines below this share of the largest one are not listed: 60 dB.
 const FLOOR: f64 = 1e-3;
@@ -23,6 +24,17 @@ pub struct ComparedLine {
     pub computed: Option<Peak>,
 }
 
+reasons! {
+    /// The spectrum that lacks a line.
+    pub enum MissingLine {
+        ;
+        /// That of the record.
+        OfRecord => "the record has no line there",
+        /// That of the study.
+        OfStudy => "the study has no line there",
+    }
+}
+
 impl ComparedLine {
     /// Its frequency, measured if it is.
     pub fn frequency(&self) -> f64 {
@@ -33,9 +45,9 @@ impl ComparedLine {
     ///
     /// # Errors
     /// The spectrum that lacks the line.
-    pub fn difference(&self) -> Result<f64, String> {
-        let measured = self.measured.ok_or("the record has no line there")?;
-        let computed = self.computed.ok_or("the study has no line there")?;
+    pub fn difference(&self) -> Result<f64, MissingLine> {
+        let measured = self.measured.ok_or(MissingLine::OfRecord)?;
+        let computed = self.computed.ok_or(MissingLine::OfStudy)?;
         Ok(decibels(measured.amplitude / computed.amplitude))
     }
 

@@ -157,7 +157,7 @@ fn of_record(
     let computed = computed(motion, record.quantity, &units, (step, count, begin), request)?;
     let refused = |why: quell_numerics::spectrum::SpectrumError| Failure::Failed {
         key: "compare".to_owned(),
-        why: why.to_string(),
+        why: why.to_string().into(),
     };
     let of = |values: &[f64], step: f64| -> Result<ComparedSpectrum, Failure> {
         Ok(ComparedSpectrum::OfRecord { spectrum: Spectrum::of(values, step).map_err(refused)? })
@@ -205,8 +205,10 @@ fn of_spectrum(
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     let samples = ((1.0 / (spacing * step)).ceil() as usize).clamp(64, MOST_SAMPLES);
     let computed = computed(motion, spectrum.quantity, &units, (step, samples, None), request)?;
-    let own = Spectrum::of(&computed.values, computed.step)
-        .map_err(|why| Failure::Failed { key: "compare".to_owned(), why: why.to_string() })?;
+    let own = Spectrum::of(&computed.values, computed.step).map_err(|why| Failure::Failed {
+        key: "compare".to_owned(),
+        why: why.to_string().into(),
+    })?;
     let amplitudes = spectrum.amplitudes.clone();
     let measured = ComparedSpectrum::OnGrid { frequencies, amplitudes };
     let own = ComparedSpectrum::OfRecord { spectrum: own };

@@ -6,6 +6,7 @@ use quell_numerics::order::ascending;
 
 use crate::fields::Fields;
 use crate::parallel::Parallel;
+use crate::reasons::reasons;
 
 /// Equal steps of the amplitude up to the largest one.
 const STEPS: u32 = 100;
@@ -20,16 +21,24 @@ pub struct GainCurve {
     /// The gain without dither at the same amplitudes.
     pub undithered: Vec<EquivalentGain>,
     /// The gain for a → 0, per unit velocity; or why it has no value.
-    pub small: Result<f64, String>,
+    pub small: Result<f64, NoSmallGain>,
+}
+
+reasons! {
+    /// Why the gain for a → 0 has no value.
+    pub enum NoSmallGain {
+        /// The law has no average.
+        NoAverage(AveragingError),
+        ;
+        /// The surface is as fast as the largest fast motion.
+        AtCorner =>
+            "the belt velocity equals the largest fast velocity, at which the slope of averaged friction jumps",
+    }
 }
 
 /// The gain for a → 0, or why it has no value.
-pub(super) fn small(function: &DescribingFunction) -> Result<f64, String> {
-    match function.small() {
-        Ok(Some(slope)) => Ok(slope),
-        Ok(None) => Err("the belt velocity equals the largest fast velocity, at which the slope of averaged friction jumps".to_owned()),
-        Err(why) => Err(why.to_string()),
-    }
+pub(super) fn small(function: &DescribingFunction) -> Result<f64, NoSmallGain> {
+    function.small()?.ok_or(NoSmallGain::AtCorner)
 }
 
 impl GainCurve {

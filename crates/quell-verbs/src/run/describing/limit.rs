@@ -4,16 +4,16 @@ use quell_linear::averaging::{Averaging, AveragingError, DescribedCycle, Describ
 use quell_model::units::Quantity;
 use quell_model::{Belt, System};
 
-use super::gains::small;
+use super::gains::{NoSmallGain, small};
+use super::unknown::{JudgedUpTo, NoStableCycle};
 use crate::fields::Fields;
-use crate::run::system::in_units;
 use crate::study::SystemStudy;
 
 /// Limit cycles by averaging in the limit of high dither frequency.
 #[derive(Clone, Debug)]
 pub struct LimitAveragedCycles {
     /// The gain for a → 0, or why it has no value.
-    pub small: Result<f64, String>,
+    pub small: Result<f64, NoSmallGain>,
     /// Every limit cycle, ascending.
     pub cycles: Vec<DescribedCycle>,
     /// Displacement of the coordinate over that of the mass.
@@ -22,10 +22,10 @@ pub struct LimitAveragedCycles {
 
 impl LimitAveragedCycles {
     /// Those up to a largest velocity amplitude; `None` where the system is not one mass under dither.
-    pub(super) fn of(system: &System, largest: f64) -> Option<Result<Self, String>> {
+    pub(super) fn of(system: &System, largest: f64) -> Option<Result<Self, AveragingError>> {
         let mass = system.one_averaged_mass().filter(|_| system.is_dithered())?;
         let displacement = mass.displacement().abs();
-        Some(Self::of_mass(mass.belt(), largest, displacement).map_err(|why| why.to_string()))
+        Some(Self::of_mass(mass.belt(), largest, displacement))
     }
 
     fn of_mass(belt: &Belt, largest: f64, displacement: f64) -> Result<Self, AveragingError> {
@@ -40,9 +40,8 @@ impl LimitAveragedCycles {
         let empty = || Fields::in_units(study.units());
         let length = self.displacement * study.observe().first().map_or(1.0, |row| row.abs());
         let stable = self.cycles.iter().find(|cycle| cycle.stable).map(|cycle| cycle.amplitude);
-        let largest = in_units(study.units(), Quantity::Velocity, largest);
-        let stable = stable
-            .ok_or_else(|| format!("no stable cycle has a velocity amplitude up to {largest}"));
+        let largest = JudgedUpTo { amplitude: largest, units: study.units() };
+        let stable = stable.ok_or(NoStableCycle::NoneStable(largest));
         let cycles = self.cycles.iter().map(|cycle| {
             let mut inner = empty();
             inner

@@ -6,18 +6,20 @@
 
 mod gains;
 mod limit;
+mod unknown;
 
 use quell_linear::averaging::{
-    AveragedLaw, AveragedSliding, DescribedVibration, DescribingFunction, DitheredSystem,
-    SlowVibration,
+    AveragedLaw, AveragedSliding, AveragingError, DescribedVibration, DescribingFunction,
+    DitheredSystem, NoSlowVibration, SlowVibration,
 };
 use quell_model::Contact;
 use quell_model::system::{Input, InputTarget};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-pub use gains::GainCurve;
+pub use gains::{GainCurve, NoSmallGain};
 pub use limit::LimitAveragedCycles;
+pub use unknown::{JudgedUpTo, NoSmallGrowth, NoStableCycle};
 
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state;
@@ -30,7 +32,7 @@ use crate::study::{SystemStudy, UnitSystem};
 
 /// The failure of an average.
 fn failed(why: impl std::fmt::Display) -> Failure {
-    Failure::Failed { key: "friction".to_owned(), why: why.to_string() }
+    Failure::Failed { key: "friction".to_owned(), why: why.to_string().into() }
 }
 
 /// Rejects an amplitude that is not above 0.
@@ -63,9 +65,9 @@ pub struct DescribedContacts {
     /// The contacts, in the order of the study.
     pub contacts: Vec<DescribedContact>,
     /// The slow vibration, or why harmonic balance does not hold.
-    pub balance: Result<SlowBalance, String>,
+    pub balance: Result<SlowBalance, NoSlowVibration>,
     /// The cycles of one mass in the limit of high dither frequency, or why they are unknown; `None` of other systems and without dither.
-    pub limit: Option<Result<LimitAveragedCycles, String>>,
+    pub limit: Option<Result<LimitAveragedCycles, AveragingError>>,
     warnings: Vec<String>,
 }
 
@@ -77,7 +79,7 @@ pub struct SlowBalance {
     /// Growth rate of slow motions at each amplitude of its curve.
     pub growth: Vec<f64>,
     /// Growth rate of small slow motions, or why it is unknown.
-    pub small: Result<f64, String>,
+    pub small: Result<f64, NoSmallGrowth>,
     /// Every limit cycle up to the largest amplitude, ascending.
     pub cycles: Vec<DescribedVibration>,
 }
@@ -110,7 +112,7 @@ pub fn run(study: &SystemStudy, largest: f64) -> Result<DescribedContacts, Failu
         });
         functions.push(function);
     }
-    let balance = SlowVibration::contact_of(system).map_err(|why| why.to_string());
+    let balance = SlowVibration::contact_of(system);
     let balance = balance.and_then(|contact| {
         balance_of(&average, contact, &functions[contact], &contacts[contact].curve)
     });
@@ -124,12 +126,13 @@ fn balance_of(
     contact: usize,
     function: &DescribingFunction,
     curve: &GainCurve,
-) -> Result<SlowBalance, String> {
+) -> Result<SlowBalance, NoSlowVibration> {
     let slow = SlowVibration::new(average, contact, function);
-    let rate = |gain: f64| slow.growth_rate(gain).map_err(|why| why.to_string());
-    let cycles = slow.cycles(curve.largest).map_err(|why| why.to_string())?;
-    let growth = curve.gains().into_iter().map(rate).collect::<Result<Vec<f64>, String>>()?;
-    let small = curve.small.clone().and_then(rate);
+    let rate = |gain: f64| slow.growth_rate(gain);
+    let cycles = slow.cycles(curve.largest)?;
+    let growth = curve.gains().into_iter().map(rate).collect::<Result<Vec<f64>, _>>()?;
+    let small = curve.small.clone().map_err(NoSmallGrowth::from);
+    let small = small.and_then(|gain| Ok(rate(gain)?));
     Ok(SlowBalance { contact, growth, small, cycles })
 }
 
@@ -161,16 +164,17 @@ impl DescribedContacts {
     ///
     /// # Errors
     /// Why no such cycle exists up to the largest amplitude.
-    pub fn stable_cycle(&self, study: &SystemStudy) -> Result<&DescribedVibration, String> {
-        let balance = self.balance.as_ref().map_err(Clone::clone)?;
-        let largest = in_units(study.units(), Quantity::Velocity, self.largest);
+    pub fn stable_cycle(&self, study: &SystemStudy) -> Result<&DescribedVibration, NoStableCycle> {
+        let no_balance = |why: &NoSlowVibration| NoStableCycle::NoBalance(why.clone());
+        let balance = self.balance.as_ref().map_err(no_balance)?;
+        let largest = JudgedUpTo { amplitude: self.largest, units: study.units() };
         balance.cycles.iter().find(|found| found.cycle.stable).ok_or_else(|| {
             if balance.growth.iter().all(|rate| *rate < 0.0) {
-                format!("slow motions of every velocity amplitude up to {largest} decay")
+                NoStableCycle::AllDecay(largest)
             } else if balance.growth.iter().all(|rate| *rate > 0.0) {
-                format!("slow motions of every velocity amplitude up to {largest} grow")
+                NoStableCycle::AllGrow(largest)
             } else {
-                format!("no stable cycle has a velocity amplitude up to {largest}")
+                NoStableCycle::NoneStable(largest)
             }
         })
     }
@@ -271,14 +275,14 @@ impl DescribedContacts {
                 fields
                     .plain("balanced_contact", self.contacts[balance.contact].name.as_str())
                     .list("limit_cycles", cycles.collect::<Vec<_>>())
-                    .rate("small_growth_rate", balance.small.clone())
+                    .known_rate("small_growth_rate", balance.small.clone())
                     .rates("growth_rate", &growth, "unknown");
             }
             Err(why) => {
                 for name in ["balanced_contact", "limit_cycles", "growth_rate"] {
-                    fields.unknown(name, why.as_str());
+                    fields.unknown(name, why);
                 }
-                fields.rate("small_growth_rate", Err(why.clone()));
+                fields.known_rate("small_growth_rate", Err(why));
             }
         }
         let contacts = self.contacts.iter().map(|contact| {
@@ -297,7 +301,7 @@ impl DescribedContacts {
                 fields.nested("limit", limit.fields(study, self.largest));
             }
             Some(Err(why)) => {
-                fields.unknown("limit", why.as_str());
+                fields.unknown("limit", why);
             }
             None => {}
         }

@@ -85,7 +85,7 @@ impl LeastDitherFound {
         let found = match &self.confident {
             Ok(found) => found,
             Err(why) => {
-                fields.unknown("confident", why.as_str());
+                fields.unknown("confident", why);
                 return;
             }
         };
@@ -94,7 +94,7 @@ impl LeastDitherFound {
         let high = if high.is_finite() {
             Ok(high)
         } else {
-            Err("samples that are never quiet lie within the interval".to_owned())
+            Err("samples that are never quiet lie within the interval")
         };
         let mut inner = study.fields();
         inner

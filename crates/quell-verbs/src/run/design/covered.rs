@@ -1,6 +1,6 @@
 //! The part of the box that one dither serves where none serves it all, in words and as JSON.
 
-use quell_design::least_dither::{BeyondCovered, CoveredBox};
+use quell_design::least_dither::{BeyondCovered, CoveredBox, NoCoveredBox};
 use quell_model::units::Quantity;
 
 use super::answer::limit_in_words;
@@ -64,7 +64,7 @@ impl LeastDitherFound {
         let part = match (&self.covered, self.over.first()) {
             (Ok(part), Some(number)) => Ok((part, number)),
             (Err(why), _) => Err(why.clone()),
-            (_, None) => Err("the study has one operating point".to_owned()),
+            (_, None) => Err(NoCoveredBox::OnePoint.into()),
         };
         match part {
             Ok((part, number)) => {
@@ -76,7 +76,7 @@ impl LeastDitherFound {
             }
             Err(why) => {
                 for name in ["covered", "examined", "parameters"] {
-                    fields.unknown(name, why.clone());
+                    fields.unknown(name, &why);
                 }
             }
         }

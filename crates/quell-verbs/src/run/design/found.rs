@@ -1,13 +1,18 @@
 //! What a design finds, in numbers of the equations.
 
+use quell_design::NoAnswer;
 use quell_design::least_dither::{
     CoveredBox, DesignPoint, Designed, LimitedQuantity, ScheduledDither,
 };
 use quell_dynamics::orbit::ThresholdKind;
-use quell_model::Waveform;
+use quell_model::{RefusedNumbers, Waveform};
 
 use super::slow_response::LargestSlowResponse;
 use super::study_with_design::StudyWithDesign;
+use super::unknown::{
+    NoAmplitudeRate, NoConfidentDither, NoCoveredPart, NoDesignSensitivity, NoSchedule,
+    NoSlowResponse,
+};
 use crate::run::waveforms::label;
 use crate::study::{BurstNumber, Confidence};
 use crate::words::{digits, quantity_is};
@@ -52,10 +57,10 @@ pub struct LeastDitherFound {
     /// The numbers of bursts that are chosen, with their paths.
     pub periods: Vec<(String, BurstNumber)>,
     /// Where no dither is allowed: the largest part of the box for which the one that comes nearest suffices.
-    pub covered: Result<CoveredBox, String>,
+    pub covered: Result<CoveredBox, NoCoveredPart>,
     /// The exact least dither at single operating points of a box of one coordinate: a schedule in place of one dither; or why it has
     /// no points.
-    pub schedule: Result<Vec<ScheduledDither>, String>,
+    pub schedule: Result<Vec<ScheduledDither>, NoSchedule>,
     /// Warnings where the dither of the answer takes the slip out of the range of a law.
     pub beyond_laws: Vec<String>,
     /// Why the averages, which do not know the states of contacts, differ from those with them at the least dither.
@@ -64,12 +69,12 @@ pub struct LeastDitherFound {
     /// answer.
     pub tongues: Vec<(f64, Vec<f64>)>,
     /// How the least amplitude depends on the numbers of the study, or why that is unknown.
-    pub sensitivity: Result<DesignSensitivity, String>,
+    pub sensitivity: Result<DesignSensitivity, NoDesignSensitivity>,
     /// The dither that is quiet in the share of random samples that is asked for, or why it is unknown.
-    pub confident: Result<ConfidentDither, String>,
+    pub confident: Result<ConfidentDither, NoConfidentDither>,
     /// Of a dither that repeats in the band of the vibration, the response to it where it is largest, or why it is unknown; `None` of
     /// other dithers, whose response has no slow vibration.
-    pub slow: Option<Result<LargestSlowResponse, String>>,
+    pub slow: Option<Result<LargestSlowResponse, NoSlowResponse>>,
 }
 
 /// A dither that was tried.
@@ -127,7 +132,7 @@ pub struct AmplitudeRate {
     /// Its value, in the unit of its key.
     pub value: f64,
     /// The derivative: the unit of the amplitude per unit of the number; or why it is unknown.
-    pub rate: Result<f64, String>,
+    pub rate: Result<f64, NoAmplitudeRate>,
 }
 
 /// How the least amplitude of a design depends on the numbers of the study.
@@ -161,9 +166,9 @@ pub struct ConfidentDither {
     /// Samples that are quiet at a smaller amplitude and, by averaging, loud at this one.
     pub loud_again: usize,
     /// Samples without a known least amplitude, which count as loud, and why the first of them is.
-    pub unknown: (usize, Option<String>),
+    pub unknown: (usize, Option<NoAnswer>),
     /// Samples that are no valid studies, which are left out, and why the first of them is.
-    pub invalid: (usize, Option<String>),
+    pub invalid: (usize, Option<RefusedNumbers>),
 }
 
 impl ConfidentDither {

@@ -12,6 +12,7 @@ use serde_json::Value as Json;
 use super::found::{DesignNumber, DesignNumbers, DesignedDither, LeastDitherFound, TriedDither};
 use super::sampling::{SampleOf, sampling};
 use super::study_with_design::StudyWithDesign;
+use super::unknown::{NoConfidentDither, NoCoveredPart, NoDesignSensitivity, NoSchedule};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::averaged_without_states;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
@@ -60,7 +61,7 @@ pub(crate) fn at_end(complaint: Complaint, key: &str, path: &str) -> Complaint {
         key: format!("design.{key}"),
         origin: Origin::Whole,
         value: path.into(),
-        allowed,
+        allowed: allowed.into(),
         ..complaint
     }
 }
@@ -85,7 +86,7 @@ pub(crate) fn least_system_dithers(
         plant: SystemPlant { at: tried.plant.as_ref(), input, observe, start: asked.start },
     });
     let tried: Vec<TriedDither<'_, SystemPlant<'_>>> = tried.collect();
-    let found = least_dither(study, asked, numbers, &tried, Ok(samples))?;
+    let found = least_dither(study, asked, numbers, &tried, Some(samples))?;
     let without_state = without_state(&found, systems[found.best].plant.as_ref());
     Ok(LeastDitherFound { without_state, ..found })
 }
@@ -102,7 +103,7 @@ fn without_state(found: &LeastDitherFound, at: &SystemAtPoint<'_>) -> Vec<String
     average.map(|average| averaged_without_states(&system, &average.contacts)).unwrap_or_default()
 }
 
-/// The least of the dithers of a study, each with its structure; `samples` are those of its uncertain numbers, or why it has none.
+/// The least of the dithers of a study, each with its structure; `samples` are those of its uncertain numbers; a disc has none.
 ///
 /// # Errors
 /// A complaint about uncertain numbers that the design gives.
@@ -111,7 +112,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     asked: &Design,
     numbers: &DesignNumbers,
     tried: &[TriedDither<'_, P>],
-    samples: Result<&SampleOf<'_>, &'static str>,
+    samples: Option<&SampleOf<'_>>,
 ) -> Result<LeastDitherFound, Failure> {
     let sampling = sampling(study, asked, numbers)?;
     let DesignNumbers { amplitude, others, over } = numbers.clone();
@@ -157,31 +158,29 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         .unwrap_or(0);
     let answer = &designed[best].designed.answer;
     let schedule = match (tried.get(best), box_ranges.as_slice(), answer) {
-        _ if asked.start != DesignStart::Local => {
-            Err("runs from a start are judged only where they decide".to_owned())
-        }
+        _ if asked.start != DesignStart::Local => Err(NoSchedule::FromStart),
         (Some(tried), [range], Ok(found)) => {
             Ok(schedule(problem(&tried.plant), *range, &found.critical.others))
         }
-        (_, [_], _) => Err("no dither is allowed".to_owned()),
-        _ => Err("the box of operating points has not exactly one coordinate".to_owned()),
+        (_, [_], _) => Err(NoSchedule::NothingAllowed),
+        _ => Err(NoSchedule::NotOneCoordinate),
     };
     let covered = match (tried.get(best), answer) {
         (Some(tried), Err(none)) => {
             within(STEPS_OF_MANY_SEARCHES, || covered_fast_first(problem(&tried.plant), none))
         }
-        _ => Err("one dither suffices for the whole range".to_owned()),
+        _ => Err(NoCoveredPart::Whole),
     };
     let (without_state, tongues) = (Vec::new(), Vec::new());
-    let sensitivity = Err("no dither is allowed".to_owned());
+    let sensitivity = Err(NoDesignSensitivity::NothingAllowed);
     let confident = match (sampling, samples, tried.get(best), answer) {
-        (Err(why), ..) => Err(why),
-        (Ok(_), Err(why), ..) => Err(why.to_owned()),
-        (Ok(sampling), Ok(samples), Some(tried), Ok(found)) => {
+        (None, ..) => Err(NoConfidentDither::NotAsked),
+        (Some(_), None, ..) => Err(NoConfidentDither::OfDisc),
+        (Some(sampling), Some(samples), Some(tried), Ok(found)) => {
             let sample = |values: &[(&str, f64)], others: &[f64]| samples(best, values, others);
             sampling.confident(&problem(&tried.plant), &found.critical, &sample)
         }
-        _ => Err("no dither is allowed".to_owned()),
+        _ => Err(NoConfidentDither::NothingAllowed),
     };
     let found = LeastDitherFound {
         amplitude,
@@ -237,13 +236,13 @@ fn fast_first(problem: DesignProblem<'_>) -> Designed {
 fn covered_fast_first(
     problem: DesignProblem<'_>,
     none: &InfeasibleDesign,
-) -> Result<CoveredBox, String> {
+) -> Result<CoveredBox, NoCoveredPart> {
     if let Some(limits) = limits_of_fast(&problem)
         && let Ok(part) = covered(fast(problem, &limits), none)
     {
         return Ok(part);
     }
-    covered(problem, none).map_err(|why| why.to_string())
+    Ok(covered(problem, none)?)
 }
 
 /// The least dither of a problem. Where none is found although other variables are chosen, the end of the range of amplitudes is taken as a

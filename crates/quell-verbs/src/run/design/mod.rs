@@ -21,6 +21,7 @@ mod sensitivity;
 mod slow;
 mod slow_response;
 mod study_with_design;
+mod unknown;
 mod validity;
 mod waveform;
 
@@ -33,4 +34,8 @@ pub(crate) use found::{DesignNumbers, TriedDither};
 pub(crate) use least::{asked, at_end, least_dither, least_system_dithers, without_amplitude};
 pub use slow_response::{LargestSlowResponse, SlowResponse};
 pub use study_with_design::{FrequencyScale, StudyWithDesign};
+pub use unknown::{
+    NoAmplitudeRate, NoConfidentDither, NoCoveredPart, NoDesignSensitivity, NoSaving, NoSchedule,
+    NoSlowLevel, NoSlowResponse,
+};
 pub(crate) use waveform::{system_with_waveform, with_wave};

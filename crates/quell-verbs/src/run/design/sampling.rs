@@ -1,5 +1,6 @@
 //! Random samples of the uncertain numbers of a design, and the dither that is quiet in a share of them.
 
+use quell_design::NoAnswer;
 use quell_design::least_dither::{
     DesignPoint, DesignProblem, DesignStart, LeastOfSample, LimitedQuantity, NoDesign, NoLeast,
     SampledLeast, SampledQuiet, ScaledPlant, design,
@@ -11,19 +12,19 @@ use serde_json::Value as Json;
 
 use super::found::{ConfidentDither, DesignNumber, DesignNumbers};
 use super::study_with_design::StudyWithDesign;
+use super::unknown::NoConfidentDither;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::parallel::Parallel;
 use crate::study::{Confidence, Design, Uncertainty};
-use crate::words::digits;
 
 /// The quiet amplitudes of a sample for a waveform by its number: of numbers by path, with the other design variables.
 pub(crate) type SampleOf<'a> =
-    dyn Fn(usize, &[(&str, f64)], &[f64]) -> Result<SampledQuiet<'a>, String> + Sync + 'a;
+    dyn Fn(usize, &[(&str, f64)], &[f64]) -> Result<SampledQuiet<'a>, RefusedNumbers> + Sync + 'a;
 
 /// The same of one waveform.
 type SampleAtPoint<'a, 's> =
-    dyn Fn(&[(&str, f64)], &[f64]) -> Result<SampledQuiet<'s>, String> + Sync + 'a;
+    dyn Fn(&[(&str, f64)], &[f64]) -> Result<SampledQuiet<'s>, RefusedNumbers> + Sync + 'a;
 
 /// Times that the other design variables are chosen again for the larger amplitude that the samples need.
 const ROUNDS: usize = 4;
@@ -37,7 +38,7 @@ pub(super) struct DrawnSamples<'a> {
     uncertainty: &'a Uncertainty,
 }
 
-/// The samples that a design asks for, or why it asks for none.
+/// The samples that a design asks for, if any.
 ///
 /// # Errors
 /// A complaint about an uncertain number that the design gives, or about runs from afar.
@@ -45,10 +46,8 @@ pub(super) fn sampling<'a>(
     study: &'a dyn StudyWithDesign,
     asked: &Design,
     numbers: &DesignNumbers,
-) -> Result<Result<DrawnSamples<'a>, String>, Failure> {
-    let Some(confidence) = asked.confidence else {
-        return Ok(Err("design.confidence is not given".to_owned()));
-    };
+) -> Result<Option<DrawnSamples<'a>>, Failure> {
+    let Some(confidence) = asked.confidence else { return Ok(None) };
     let Some(uncertainty) = study.uncertain() else {
         let allowed = "a table [uncertainty] with distributions, such as \"belt.damping_ratio\" = { lognormal = [0.05, 0.5] }: \
                        design.confidence is a share of its samples";
@@ -72,15 +71,15 @@ pub(super) fn sampling<'a>(
         );
         return Err(refuse("uncertainty", number.path.as_str().into(), allowed));
     }
-    Ok(Ok(DrawnSamples { confidence, uncertainty }))
+    Ok(Some(DrawnSamples { confidence, uncertainty }))
 }
 
 /// What is known of one sample by averaging.
 enum Averaged {
-    Invalid(String),
+    Invalid(RefusedNumbers),
     Least(LeastOfSample),
     Never,
-    Unknown(String),
+    Unknown(NoAnswer),
 }
 
 /// The least amplitude that is quiet in a share of the samples.
@@ -90,8 +89,8 @@ struct Quantile {
     exact: usize,
     never: usize,
     loud_again: usize,
-    unknown: (usize, Option<String>),
-    invalid: (usize, Option<String>),
+    unknown: (usize, Option<NoAnswer>),
+    invalid: (usize, Option<RefusedNumbers>),
 }
 
 impl DrawnSamples<'_> {
@@ -104,7 +103,7 @@ impl DrawnSamples<'_> {
         problem: &DesignProblem<'_>,
         critical: &DesignPoint,
         sample: &SampleAtPoint<'_, '_>,
-    ) -> Result<ConfidentDither, String> {
+    ) -> Result<ConfidentDither, NoConfidentDither> {
         let mut chosen = critical.clone();
         let mut factor = None;
         for round in 1..=ROUNDS {
@@ -132,7 +131,7 @@ impl DrawnSamples<'_> {
             factor = Some(ratio);
             chosen = enlarged(problem, ratio)?;
         }
-        Err("the choice under the limits did not settle".to_owned())
+        Err(NoConfidentDither::Unsettled)
     }
 
     /// The amplitude that is enough for the share of the samples, with the other variables of a design.
@@ -141,7 +140,7 @@ impl DrawnSamples<'_> {
         problem: &DesignProblem<'_>,
         design: &DesignPoint,
         sample: &SampleAtPoint<'_, '_>,
-    ) -> Result<Quantile, String> {
+    ) -> Result<Quantile, NoConfidentDither> {
         // The samples themselves are judged in parallel.
         let problem = &DesignProblem { tasks: &InTurn, ..*problem };
         let Confidence { share, samples, seed } = self.confidence;
@@ -154,15 +153,14 @@ impl DrawnSamples<'_> {
         };
         let samples = AveragedSamples::judged(samples, problem, design, &drawn)?;
         let (known, unknown) = samples.exactly(problem, share, &drawn);
-        let quantile = known.quantile(share).ok_or("there are no samples")?;
+        let quantile = known.quantile(share).ok_or(NoConfidentDither::NoSamples)?;
         let never = samples.never();
         if !quantile.value.is_finite() {
-            return Err(format!(
-                "no amplitude of the range is known to be quiet in {} of {} samples{}",
-                never + unknown.len(),
-                samples.valid.len(),
-                unknown.first().map_or(String::new(), |why| format!("; the first: {why}"))
-            ));
+            return Err(NoConfidentDither::NeverQuiet {
+                never: never + unknown.len(),
+                all: samples.valid.len(),
+                first: unknown.into_iter().next(),
+            });
         }
         let loud = |place: &usize| {
             samples.least(*place) < quantile.interval.0
@@ -173,7 +171,6 @@ impl DrawnSamples<'_> {
         };
         let places: Vec<usize> = (0..samples.valid.len()).collect();
         let loud_again = places.in_parallel(loud).filter(|is_loud| *is_loud).count();
-        let counted = |whys: Vec<String>| (whys.len(), whys.into_iter().next());
         Ok(Quantile {
             amplitude: quantile.value,
             interval: quantile.interval,
@@ -182,15 +179,20 @@ impl DrawnSamples<'_> {
             loud_again,
             unknown: counted(unknown),
             invalid: counted(samples.reasons(|sample| match sample {
-                Averaged::Invalid(why) => Some(why),
+                Averaged::Invalid(why) => Some(why.clone()),
                 _ => None,
             })),
         })
     }
 }
 
+/// The number of some reasons, and the first of them.
+fn counted<W>(whys: Vec<W>) -> (usize, Option<W>) {
+    (whys.len(), whys.into_iter().next())
+}
+
 /// A sample by its number.
-type SampleByNumber<'a, 's> = dyn Fn(usize) -> Result<SampledQuiet<'s>, String> + Sync + 'a;
+type SampleByNumber<'a, 's> = dyn Fn(usize) -> Result<SampledQuiet<'s>, RefusedNumbers> + Sync + 'a;
 
 /// Samples judged by averaging.
 struct AveragedSamples {
@@ -209,13 +211,13 @@ impl AveragedSamples {
         problem: &DesignProblem<'_>,
         design: &DesignPoint,
         drawn: &SampleByNumber<'_, '_>,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, NoConfidentDither> {
         let averaged = |number: &usize| match drawn(*number) {
             Err(why) => Averaged::Invalid(why),
             Ok(sample) => match problem.averaged_least_of(&sample, design) {
                 Ok(least) => Averaged::Least(least),
                 Err(NoLeast::NeverQuiet { .. }) => Averaged::Never,
-                Err(NoLeast::Failed { why, .. }) => Averaged::Unknown(why.to_string()),
+                Err(NoLeast::Failed { why, .. }) => Averaged::Unknown(why),
             },
         };
         let numbers: Vec<usize> = (0..count).collect();
@@ -224,7 +226,7 @@ impl AveragedSamples {
         let valid: Vec<usize> = (0..count).filter(is_valid).collect();
         match all.first() {
             Some(Averaged::Invalid(why)) if valid.is_empty() => {
-                Err(format!("no sample is a valid study: {why}"))
+                Err(NoConfidentDither::AllInvalid(why.clone()))
             }
             _ => Ok(Self { all, valid }),
         }
@@ -243,8 +245,8 @@ impl AveragedSamples {
         self.all.iter().filter(|sample| matches!(sample, Averaged::Never)).count()
     }
 
-    fn reasons(&self, why: impl Fn(&Averaged) -> Option<&String>) -> Vec<String> {
-        self.all.iter().filter_map(|sample| why(sample).cloned()).collect()
+    fn reasons<W>(&self, why: impl Fn(&Averaged) -> Option<W>) -> Vec<W> {
+        self.all.iter().filter_map(why).collect()
     }
 
     /// The least amplitudes, exact where they decide about a quantile, and why amplitudes are unknown.
@@ -253,9 +255,9 @@ impl AveragedSamples {
         problem: &DesignProblem<'_>,
         share: f64,
         drawn: &SampleByNumber<'_, '_>,
-    ) -> (SampledLeast, Vec<String>) {
+    ) -> (SampledLeast, Vec<NoAnswer>) {
         let mut unknown = self.reasons(|sample| match sample {
-            Averaged::Unknown(why) => Some(why),
+            Averaged::Unknown(why) => Some(why.clone()),
             _ => None,
         });
         let least = |place: usize| self.least(place);
@@ -264,10 +266,8 @@ impl AveragedSamples {
             let Averaged::Least(least) = &self.all[self.valid[place]] else {
                 return (place, Ok(f64::INFINITY));
             };
-            let failed = |why| NoLeast::Failed {
-                point: Vec::new(),
-                why: RefusedNumbers::ByStudy(why).into(),
-            };
+            let failed =
+                |why: RefusedNumbers| NoLeast::Failed { point: Vec::new(), why: why.into() };
             let found = drawn(self.valid[place]).map_err(failed).and_then(|sample| {
                 within(STEPS_OF_MANY_SEARCHES, || problem.exact_least_of(&sample, least))
             });
@@ -282,7 +282,7 @@ impl AveragedSamples {
             for (place, exact) in found {
                 let exact = exact.unwrap_or_else(|why| {
                     if let NoLeast::Failed { why, .. } = why {
-                        unknown.push(why.to_string());
+                        unknown.push(why);
                     }
                     f64::INFINITY
                 });
@@ -296,7 +296,7 @@ impl AveragedSamples {
 ///
 /// # Errors
 /// Why it does not exist.
-fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, String> {
+fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, NoConfidentDither> {
     let plant = ScaledPlant { plant: problem.plant, factor };
     let (from, to) = problem.amplitude;
     let limits: Vec<(LimitedQuantity, f64)> = problem
@@ -311,18 +311,12 @@ fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, Str
     let problem = DesignProblem { plant: &plant, amplitude, limits: &limits, ..*problem };
     let found = within(STEPS_OF_MANY_SEARCHES, || design(problem));
     found.answer.map(|found| found.critical).map_err(|none| match none.why {
-        NoDesign::NeverQuiet { .. } => {
-            format!(
-                "{} times the least amplitude, which the samples need, is beyond its range",
-                digits(factor)
-            )
+        NoDesign::NeverQuiet { .. } => NoConfidentDither::BeyondRange { factor },
+        NoDesign::Limit { quantity, used, .. } => {
+            NoConfidentDither::Limit { quantity, used, factor }
         }
-        NoDesign::Limit { quantity, used, .. } => format!(
-            "{} would be {} times its limit at the amplitude that the samples need, {} times the least one",
-            quantity.name(),
-            digits(used),
-            digits(factor)
-        ),
-        NoDesign::Unlimited { why, .. } | NoDesign::Failed { why, .. } => why.to_string(),
+        NoDesign::Unlimited { why, .. } | NoDesign::Failed { why, .. } => {
+            NoConfidentDither::NoAnswer(why)
+        }
     })
 }

@@ -6,21 +6,21 @@ use quell_model::units::Quantity;
 use super::answer::quantity_of;
 use super::found::LeastDitherFound;
 use super::study_with_design::StudyWithDesign;
+use super::unknown::NoSaving;
 use crate::fields::Fields;
 use crate::words::{digits, quantity_at};
 
 impl LeastDitherFound {
     /// The share of the objective that a schedule saves on average over the box; more than 1 where the mean is negative, as a loss of
     /// friction can be.
-    fn saved(&self) -> Result<f64, String> {
+    fn saved(&self) -> Result<f64, NoSaving> {
         let schedule = self.schedule.as_ref().map_err(Clone::clone)?;
-        let found = self.answer().answer.as_ref().map_err(|_| "no dither is allowed".to_owned())?;
-        let single = found.critical.objective.clone().map_err(|why| why.to_string())?;
+        let found = self.answer().answer.as_ref().map_err(|_| NoSaving::NothingAllowed)?;
+        let single = found.critical.objective.clone()?;
         let objectives = schedule.iter().map(|row| row.objective.clone());
-        let objectives: Vec<f64> =
-            objectives.collect::<Result<_, _>>().map_err(|why| why.to_string())?;
+        let objectives: Vec<f64> = objectives.collect::<Result<_, _>>()?;
         if objectives.is_empty() || single <= 0.0 {
-            return Err("the objective of the single dither is not positive".to_owned());
+            return Err(NoSaving::NotPositive);
         }
         Ok(1.0 - objectives.iter().sum::<f64>() / objectives.len() as f64 / single)
     }
@@ -73,7 +73,7 @@ impl LeastDitherFound {
                 fields.list("schedule", rows.collect::<Vec<_>>());
             }
             Err(why) => {
-                fields.unknown("schedule", why.clone());
+                fields.unknown("schedule", why);
             }
         }
         fields.known("saved_by_schedule", Quantity::Ratio, self.saved());

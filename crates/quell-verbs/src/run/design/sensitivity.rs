@@ -7,15 +7,12 @@ use serde_json::Value as Json;
 
 use super::found::{AmplitudeRate, DesignNumber, DesignSensitivity, LeastDitherFound};
 use super::study_with_design::StudyWithDesign;
+use super::unknown::{MOST_NUMBERS, NoAmplitudeRate, NoDesignSensitivity};
 use crate::fields::Fields;
 use crate::words::{digits, quantity_at};
 
 /// Relative change by which a number is tried: whether the equations contain it, and whether it may vary.
 const TRIED: f64 = 1e-3;
-
-/// Numbers of a study that are differentiated at most, each of which takes a few periods of motion: matrices of large structures are
-/// written as numbers too.
-const MOST_NUMBERS: usize = 400;
 
 /// Tables of a study that do not describe its equations.
 const APART: [&str; 7] = ["schema", "title", "sweep", "design", "uncertainty", "observe", "solver"];
@@ -62,10 +59,10 @@ struct AtLeast<'a> {
 }
 
 /// A number of the study: its path, its value, and whether it can vary or why not.
-type StudyNumber = (String, f64, Result<(), String>);
+type StudyNumber = (String, f64, Result<(), NoAmplitudeRate>);
 
 impl AtLeast<'_> {
-    fn with(&self, path: &str, value: f64) -> Result<System, String> {
+    fn with(&self, path: &str, value: f64) -> Result<System, RefusedNumbers> {
         let mut numbers = self.set.clone();
         numbers.push((path, value));
         self.study.system_with(self.waveform, &numbers)
@@ -73,9 +70,10 @@ impl AtLeast<'_> {
 
     /// The numbers that the equations contain, with their values: those of the design at their chosen values, then the others that the
     /// study writes. A number that cannot vary comes with the reason.
-    fn numbers(&self) -> Result<Vec<StudyNumber>, String> {
+    fn numbers(&self) -> Result<Vec<StudyNumber>, NoDesignSensitivity> {
         let base = self.study.system_with(self.waveform, &self.set)?;
-        let (amplitude, chosen) = self.set.split_first().ok_or("nothing is chosen")?;
+        let (amplitude, chosen) =
+            self.set.split_first().ok_or(NoDesignSensitivity::NothingChosen)?;
         let louder = self.with(amplitude.0, amplitude.1 * (1.0 + TRIED))?;
         let mut found: Vec<StudyNumber> = Vec::new();
         let add = |path: &str, value: f64, found: &mut Vec<StudyNumber>| {
@@ -85,7 +83,7 @@ impl AtLeast<'_> {
                     found.push((path.to_owned(), value, Ok(())));
                 }
                 Ok(_) => {}
-                Err(why) => found.push((path.to_owned(), value, Err(why))),
+                Err(why) => found.push((path.to_owned(), value, Err(why.into()))),
             }
         };
         for (path, value) in chosen.iter().filter(|(_, value)| *value != 0.0) {
@@ -109,19 +107,14 @@ impl LeastDitherFound {
     pub(super) fn sensitivity_of(
         &self,
         study: &dyn StudyWithDesign,
-    ) -> Result<DesignSensitivity, String> {
-        let found = self.answer().answer.as_ref().map_err(|_| "no dither is allowed")?;
+    ) -> Result<DesignSensitivity, NoDesignSensitivity> {
+        let found =
+            self.answer().answer.as_ref().map_err(|_| NoDesignSensitivity::NothingAllowed)?;
         if study.asked().is_some_and(|asked| asked.start != DesignStart::Local) {
-            return Err(
-                "the amplitude is that of runs from a start, which depends on numbers by jumps"
-                    .to_owned(),
-            );
+            return Err(NoDesignSensitivity::FromStart);
         }
         let critical = &found.critical;
-        let worst = critical
-            .worst
-            .as_ref()
-            .ok_or("the smallest allowed amplitude is quiet everywhere: no threshold decides")?;
+        let worst = critical.worst.as_ref().ok_or(NoDesignSensitivity::QuietEverywhere)?;
         let in_units = |numbers: &[DesignNumber], values: &[f64]| -> Vec<f64> {
             numbers.iter().zip(values).map(|(number, value)| value * number.per_unit).collect()
         };
@@ -138,8 +131,7 @@ impl LeastDitherFound {
         let at_least = AtLeast { study, waveform: self.waveform(), set };
         let mut numbers = at_least.numbers()?;
         for (_, _, may_vary) in numbers.iter_mut().skip(MOST_NUMBERS) {
-            *may_vary =
-                Err(format!("the first {MOST_NUMBERS} numbers of a study are differentiated"));
+            *may_vary = Err(NoAmplitudeRate::BeyondMost);
         }
         let vary: Vec<(&str, f64)> = numbers
             .iter()
@@ -152,19 +144,16 @@ impl LeastDitherFound {
             set.extend(over_paths.iter().copied().zip(point.iter().copied()));
             let changed = vary.iter().zip(values).filter(|((_, own), value)| own != *value);
             set.extend(changed.map(|((path, _), value)| (*path, *value)));
-            study.system_with(self.waveform(), &set).map_err(RefusedNumbers::ByStudy)
+            study.system_with(self.waveform(), &set)
         };
         let values: Vec<f64> = vary.iter().map(|(_, value)| *value).collect();
         let least =
             LeastAmplitude { at: &at, amplitude, point: &point, over: &over, numbers: &values };
-        let LeastAmplitudeSensitivity { kind, meets, derivatives } =
-            least.sensitivity().map_err(|why| why.to_string())?;
+        let LeastAmplitudeSensitivity { kind, meets, derivatives } = least.sensitivity()?;
         let mut derivatives = derivatives.into_iter();
         let rates = numbers.into_iter().map(|(path, value, may_vary)| {
-            let rate = may_vary.and_then(|()| {
-                let found = derivatives.next().map(|rate| rate.map_err(|why| why.to_string()));
-                found.unwrap_or_else(|| Err("it was not computed".to_owned()))
-            });
+            let rate = may_vary
+                .and_then(|()| Ok(derivatives.next().ok_or(NoAmplitudeRate::NotComputed)??));
             AmplitudeRate { path, value, rate }
         });
         Ok(DesignSensitivity { kind, meets, amplitude, rates: rates.collect() })
@@ -177,7 +166,7 @@ impl LeastDitherFound {
             Ok(found) => found,
             Err(why) => {
                 for name in names.into_iter().chain(["threshold"]) {
-                    fields.unknown(name, why.clone());
+                    fields.unknown(name, why);
                 }
                 return;
             }
@@ -190,9 +179,8 @@ impl LeastDitherFound {
                 let value = value.filter(|value| value.is_finite());
                 table.insert(rate.path.clone(), value.into());
                 if value.is_none() {
-                    let why = rate.rate.as_ref().err().cloned();
-                    let why = why
-                        .unwrap_or_else(|| "its value is beyond the range of numbers".to_owned());
+                    let beyond = || "its value is beyond the range of numbers".to_owned();
+                    let why = rate.rate.as_ref().err().map_or_else(beyond, ToString::to_string);
                     fields.why(&format!("{name}.{}", rate.path), why);
                 }
             }

@@ -9,6 +9,7 @@ use quell_model::units::Quantity;
 use super::found::{DesignNumbers, LeastDitherFound};
 use super::slow_response::LargestSlowResponse;
 use super::study_with_design::StudyWithDesign;
+use super::unknown::{NoSlowLevel, NoSlowResponse};
 use crate::fields::Fields;
 use crate::run::effect_words::{level_of, percent};
 
@@ -23,7 +24,7 @@ impl LeastDitherFound {
         &self,
         numbers: &DesignNumbers,
         study: &dyn StudyWithDesign,
-    ) -> Option<Result<LargestSlowResponse, String>> {
+    ) -> Option<Result<LargestSlowResponse, NoSlowResponse>> {
         let dither = self.claimed(numbers)?;
         if !numbers.is_slow(&dither, self.waveform(), study) {
             return None;
@@ -43,15 +44,14 @@ impl LeastDitherFound {
                 Err(why) => failed = failed.or(Some(why)),
             }
         }
-        let unknown = || failed.unwrap_or_else(|| "the box has no points".to_owned());
-        Some(largest.ok_or_else(unknown))
+        Some(largest.ok_or(failed.unwrap_or(NoSlowResponse::NoPoints)))
     }
 
     /// Whether the dither of the answer is quiet: its response has no slow vibration, or one that is below a share of that without dither.
     ///
     /// # Errors
     /// Why it is unknown.
-    pub(super) fn is_quiet(&self) -> Result<bool, String> {
+    pub(super) fn is_quiet(&self) -> Result<bool, NoSlowResponse> {
         match &self.slow {
             None => Ok(true),
             Some(Ok(slow)) => Ok(slow.response.residual_vibration < SUPPRESSED),
@@ -95,9 +95,8 @@ impl LeastDitherFound {
             Ok(quiet) => fields.plain("quiet", quiet),
             Err(why) => fields.unknown("quiet", why),
         };
-        let none = || "the dither repeats above the band of the vibration".to_owned();
         let known = match &self.slow {
-            None => Err(none()),
+            None => Err(NoSlowResponse::AboveBand),
             Some(slow) => slow.as_ref().map(|slow| slow.response).map_err(Clone::clone),
         };
         let residual = match &self.slow {
@@ -105,9 +104,8 @@ impl LeastDitherFound {
             None => Ok(0.0),
             Some(_) => known.clone().map(|response| response.residual_vibration),
         };
-        let level = residual.clone().and_then(|residual| {
-            level_of(residual).ok_or_else(|| "E is zero, which has no level in decibels".to_owned())
-        });
+        let level = residual.clone().map_err(NoSlowLevel::from);
+        let level = level.and_then(|residual| level_of(residual).ok_or(NoSlowLevel::Zero));
         fields.known("residual_vibration", Quantity::Ratio, residual);
         fields.known("level_db", Quantity::Ratio, level);
         let tone = |of: fn(Peak) -> f64| known.clone().map(|response| of(response.tones[0]));

@@ -5,7 +5,8 @@ use quell_dynamics::orbit::base_response;
 use quell_dynamics::response::{PEAK_FLOOR, Peak, Spectrum, respond};
 use quell_model::System;
 
-use crate::run::response::{ResponseRequest, plan_of, undefined};
+use super::unknown::NoSlowResponse;
+use crate::run::response::{NoResidualVibration, ResponseRequest, plan_of};
 use crate::study::SystemStudy;
 
 /// Steps by which the dither grows from zero to the base response.
@@ -38,15 +39,15 @@ fn strongest(spectrum: &Spectrum) -> Option<Peak> {
 }
 
 /// The response of a system on its base response.
-pub(super) fn found(study: &SystemStudy, system: &System) -> Result<SlowResponse, String> {
-    let plan = plan_of(study, ResponseRequest::default()).map_err(|why| why.to_string())?;
-    let orbit = base_response(system, GROWTH_STEPS).map_err(|why| why.to_string())?;
+pub(super) fn found(study: &SystemStudy, system: &System) -> Result<SlowResponse, NoSlowResponse> {
+    let plan = plan_of(study, ResponseRequest::default())?;
+    let orbit = base_response(system, GROWTH_STEPS)?;
     let start = MotionStart { time: 0.0, state: orbit.state };
-    let found = respond(system, &start, &plan).map_err(|why| why.to_string())?;
-    let residual_vibration = found.residual_vibration.map_err(undefined)?;
+    let found = respond(system, &start, &plan)?;
+    let residual_vibration = found.residual_vibration.map_err(NoResidualVibration)?;
     let tones = [&found.dithered, &found.undithered].map(|record| strongest(&record.spectrum));
     let [Some(with), Some(without)] = tones else {
-        return Err("the response has no line".to_owned());
+        return Err(NoSlowResponse::NoLine);
     };
     Ok(SlowResponse { residual_vibration, band_end: found.band_end, tones: [with, without] })
 }

@@ -6,10 +6,11 @@ use quell_design::actuator::Actuator;
 use quell_linear::averaging::DitheredSystem;
 use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
-use quell_model::{System, Waveform};
+use quell_model::{RefusedNumbers, System, Waveform};
 use serde_json::Value as Json;
 
 use super::slow_response::{self, SlowResponse};
+use super::unknown::NoSlowResponse;
 use super::waveform::system_with_waveform;
 use crate::disc_units::DiscUnits;
 use crate::fields::Fields;
@@ -58,7 +59,11 @@ pub trait StudyWithDesign: Sync {
     ///
     /// # Errors
     /// Why the study cannot take these numbers, or has no equations of motion.
-    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String>;
+    fn system_with(
+        &self,
+        waveform: &Waveform,
+        numbers: &[(&str, f64)],
+    ) -> Result<System, RefusedNumbers>;
 
     /// Warnings where slip leaves the range of a friction law by averaging, with numbers set in order as by `--set` and another waveform
     /// of the dither that is designed. None where averaging has no answer.
@@ -81,7 +86,7 @@ pub trait StudyWithDesign: Sync {
         &self,
         waveform: &Waveform,
         numbers: &[(&str, f64)],
-    ) -> Result<SlowResponse, String>;
+    ) -> Result<SlowResponse, NoSlowResponse>;
 
     /// The uncertain numbers.
     fn uncertain(&self) -> Option<&Uncertainty>;
@@ -137,7 +142,7 @@ impl StudyWithDesign for SystemStudy {
         &self,
         waveform: &Waveform,
         numbers: &[(&str, f64)],
-    ) -> Result<SlowResponse, String> {
+    ) -> Result<SlowResponse, NoSlowResponse> {
         slow_response::found(self, &self.system_with(waveform, numbers)?)
     }
 
@@ -178,20 +183,28 @@ impl StudyWithDesign for SystemStudy {
         self.unit_of(path).unwrap_or("1").to_owned()
     }
 
-    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String> {
+    fn system_with(
+        &self,
+        waveform: &Waveform,
+        numbers: &[(&str, f64)],
+    ) -> Result<System, RefusedNumbers> {
         let amplitude = self
             .asked()
             .and_then(|asked| asked.vary.iter().find_map(|range| self.dither_of(&range.path)));
         let model = self.model();
-        let numbers = model.numbers(numbers).map_err(|why| why.to_string())?;
-        let system = model.at(&numbers).map_err(|why| why.to_string())?;
+        let numbers = model.numbers(numbers).map_err(RefusedNumbers::by_study)?;
+        let system = model.at(&numbers).map_err(RefusedNumbers::by_study)?;
         Ok(system_with_waveform(system, amplitude.unwrap_or(0), waveform))
     }
 }
 
 impl StudyWithDesign for DiscStudy {
-    fn slow_response(&self, _: &Waveform, _: &[(&str, f64)]) -> Result<SlowResponse, String> {
-        Err("the dither of a disc varies its friction and moves nothing".to_owned())
+    fn slow_response(
+        &self,
+        _: &Waveform,
+        _: &[(&str, f64)],
+    ) -> Result<SlowResponse, NoSlowResponse> {
+        Err(NoSlowResponse::OfDisc)
     }
 
     fn uncertain(&self) -> Option<&Uncertainty> {
@@ -252,7 +265,8 @@ impl StudyWithDesign for DiscStudy {
         "1".to_owned()
     }
 
-    fn system_with(&self, _: &Waveform, _: &[(&str, f64)]) -> Result<System, String> {
-        Err("derivatives are computed of belts and systems, whose thresholds are those of periodic motions".to_owned())
+    fn system_with(&self, _: &Waveform, _: &[(&str, f64)]) -> Result<System, RefusedNumbers> {
+        let why = "derivatives are computed of belts and systems, whose thresholds are those of periodic motions";
+        Err(RefusedNumbers::by_study(why))
     }
 }

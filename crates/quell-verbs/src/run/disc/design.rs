@@ -70,8 +70,7 @@ pub fn run(study: &DiscStudy) -> Result<LeastDitherFound, Failure> {
         others: only(&others),
         over: only(&over),
     };
-    let none = "design.confidence is for belts and systems";
-    let mut found = least_dither(study, asked, &numbers, &tried, Err(none))?;
+    let mut found = least_dither(study, asked, &numbers, &tried, None)?;
     if let (Some(_), [range]) = (speed, found.over.as_slice()) {
         let chosen = found.chosen().unwrap_or_else(|| middles(&found.others));
         let plant = &tried[found.best].plant;

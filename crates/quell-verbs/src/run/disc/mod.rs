@@ -16,5 +16,5 @@ use crate::complaint::Failure;
 
 /// The failure of a computation that overflowed.
 fn overflowed(key: &str, why: impl std::fmt::Display) -> Failure {
-    Failure::Failed { key: key.to_owned(), why: why.to_string() }
+    Failure::Failed { key: key.to_owned(), why: why.to_string().into() }
 }

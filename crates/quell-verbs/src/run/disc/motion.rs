@@ -1,6 +1,7 @@
 //! `simulate` of a disc: its motion as a system, from a small motion, and what becomes of the growth.
 
 use std::f64::consts::TAU;
+use std::fmt::Display;
 
 use quell_model::units::Quantity;
 use quell_model::{Contact, System};
@@ -8,6 +9,7 @@ use serde_json::{Map, Value as Json};
 
 use super::kick::{self, KICK, Kick};
 use super::overflowed;
+pub use super::watch::NoObservedGrowth;
 use super::watch::RowWatch;
 use crate::complaint::Failure;
 use crate::disc_units::{DiscUnits, FORCE, POWER};
@@ -33,10 +35,6 @@ pub const RUNAWAY: f64 = 1e6;
 const GROWS: &str = "the motion grows without bound: in this model friction follows the load, and the loads of the springs follow \
                      the deflection";
 
-/// Why a run under a speed, load or dither over time has no growth rate.
-const VARIES: &str =
-    "the speed, a load or the dither varies in time: the growth rate is that of no moment";
-
 /// One motion of a disc.
 #[derive(Clone, Debug)]
 pub struct DiscSimulation {
@@ -49,7 +47,7 @@ pub struct DiscSimulation {
     /// Half the peak-to-peak deflection under the first load over the last tenth of the run; `None` for a run without duration.
     pub amplitude: Option<f64>,
     /// Growth rate of the extremes of that deflection while the motion was small; or why it is unknown.
-    pub growth: Result<f64, String>,
+    pub growth: Result<f64, NoObservedGrowth>,
     /// Whether the duration was chosen here.
     pub chosen: bool,
     /// Whether the deflection grew to [`RUNAWAY`] times that of the leading small motion at the start.
@@ -112,7 +110,7 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
         motion,
         kick,
         amplitude: (until > begin).then(|| watch.amplitude()),
-        growth: if is_steady { watch.growth() } else { Err(VARIES.to_owned()) },
+        growth: if is_steady { watch.growth() } else { Err(NoObservedGrowth::Varies) },
         chosen: request.until.is_none(),
         ran_away,
     })
@@ -234,12 +232,17 @@ impl DiscSimulation {
 }
 
 /// Adds a number, or null with the reason.
-fn put(object: &mut Json, why: &mut Map<String, Json>, name: &str, value: &Result<f64, String>) {
+fn put(
+    object: &mut Json,
+    why: &mut Map<String, Json>,
+    name: &str,
+    value: &Result<f64, impl Display>,
+) {
     match value {
         Ok(value) => object[name] = (*value).into(),
         Err(reason) => {
             object[name] = Json::Null;
-            why.insert(name.to_owned(), reason.clone().into());
+            why.insert(name.to_owned(), reason.to_string().into());
         }
     }
 }

@@ -9,6 +9,7 @@ use quell_disc::resonance::{
     WaveError, Waves, clear_frequencies, verified_frequency, within,
 };
 pub use quell_disc::resonance::{Order, Resonance};
+use quell_linear::floquet::NotFollowerDither;
 pub use quell_linear::growth::Verdict;
 use quell_model::Disc;
 use quell_model::disc::Contributions;
@@ -19,6 +20,7 @@ use serde_json::{Map, Value as Json, json};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::disc_units::FRICTION;
+use crate::said::{Mention, Said};
 use crate::study::DiscStudy;
 
 /// Largest number of harmonics of a dither that are examined: their meetings fill an answer of some hundred thousand lines.
@@ -142,7 +144,7 @@ pub struct Resonances {
     /// Meetings induced by dither.
     pub dithered: Vec<Resonance>,
     /// The speeds in which a motion grows by the exact equations, at the friction of the study; or why they are not known.
-    pub growing: Result<Vec<GrowingInterval>, String>,
+    pub growing: Result<Vec<GrowingInterval>, NotFollowerDither>,
     /// The answer about clear frequencies.
     pub clear: Option<Clear>,
 }
@@ -153,7 +155,7 @@ pub struct Resonances {
 /// A complaint if the theory does not apply (not exactly one load, negative friction, parts left out), if the disc has no dither
 /// whose frequency could be chosen, or if a wave grows on its own at any frequency.
 pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances, Failure> {
-    let refuse = |key: &str, why: String| {
+    let refuse = |key: &str, why: Said| {
         Failure::from(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, why))
     };
     if study.parts() != Contributions::ALL {
@@ -163,16 +165,17 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
         return Err(complaint.into());
     }
     let waves = Waves::new(study.disc()).map_err(|why| {
-        let instead = match why {
+        let allowed = match why {
             WaveError::Loads(_) => {
-                "; `quell stability` and `quell map --quantity growth` take any number of loads"
+                let verbs = Said::from(format!("{why}; ")).mention(Mention::Stability);
+                verbs.text(" and ").mention(Mention::MapOfGrowth).text(" take any number of loads")
             }
             WaveError::NotPlain
             | WaveError::Stiffened
             | WaveError::NegativeFriction { .. }
-            | WaveError::Frequency { .. } => "",
+            | WaveError::Frequency { .. } => why.to_string().into(),
         };
-        refuse("disc.load", format!("{why}{instead}"))
+        refuse("disc.load", allowed)
     })?;
     let waves = waves.with_order(question.order);
     let own = study.disc().dither().frequency_ratio().map(|ratio| (&question.speeds, ratio));
@@ -184,7 +187,7 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
                 "{count} harmonics of this dither can resonate in these speeds, more than {MOST_HARMONICS}: a shorter burst, \
                  a higher frequency or a smaller range of speeds has fewer"
             );
-            return Err(refuse("dither", why));
+            return Err(refuse("dither", why.into()));
         }
     }
     let clear = match &question.clear {
@@ -192,10 +195,10 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
         Some((speeds, frequencies)) => {
             let clearance = clear_frequencies(&waves, speeds.clone(), frequencies.clone())
                 .map_err(|why| match why {
-                    ClearanceError::NoDither => refuse("dither", why.to_string()),
-                    ClearanceError::Range => refuse("--clear", why.to_string()),
+                    ClearanceError::NoDither => refuse("dither", why.to_string().into()),
+                    ClearanceError::Range => refuse("--clear", why.to_string().into()),
                     ClearanceError::WaveUnstable { .. } => {
-                        Failure::Failed { key: "--clear".to_owned(), why: why.to_string() }
+                        Failure::Failed { key: "--clear".to_owned(), why: why.to_string().into() }
                     }
                 })?;
             let widest =
@@ -206,7 +209,7 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
                 let ratio = verified.map_or(0.5 * (from + to), |best| best.frequency_ratio);
                 let there = waves
                     .with_dither_frequency(ratio)
-                    .map_err(|why| refuse("--frequency", why.to_string()))?;
+                    .map_err(|why| refuse("--frequency", why.to_string().into()))?;
                 Ok::<_, Failure>((ratio, within(&there, speeds.clone())))
             });
             let suggestion = suggestion.transpose()?;
@@ -232,8 +235,8 @@ fn growing(
     disc: &Disc,
     waves: &Waves,
     speeds: &RangeInclusive<f64>,
-) -> Result<Vec<GrowingInterval>, String> {
-    let found = growing_speeds(disc, speeds, STEPS).map_err(|why| why.to_string())?;
+) -> Result<Vec<GrowingInterval>, NotFollowerDither> {
+    let found = growing_speeds(disc, speeds, STEPS)?;
     let orders =
         [Order::First, Order::Second].map(|order| (order, waves.clone().with_order(order)));
     let (start, end) = (*speeds.start(), *speeds.end());
@@ -418,7 +421,7 @@ impl Resonances {
             "warnings": study.warnings(),
         });
         if let Err(why) = &self.growing {
-            object["why"] = json!({ "growing": why });
+            object["why"] = json!({ "growing": why.to_string() });
         }
         if let Some(clear) = &self.clear {
             let mut inner = json!({

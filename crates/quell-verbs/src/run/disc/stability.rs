@@ -6,6 +6,7 @@ use quell_disc::instability::{GrowthShares, InstabilityKind, origins};
 use quell_disc::marginal::marginal_frictions;
 use quell_disc::partition::{FrictionCrossing, NoPartition, crossings};
 use quell_disc::undithered;
+use quell_linear::floquet::NotFollowerDither;
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::disc::Contributions;
 use quell_model::disc::DiscDither;
@@ -17,6 +18,7 @@ use super::critical::{self, Critical};
 use super::{overflowed, tangential};
 use crate::complaint::Failure;
 use crate::disc_units::{DiscUnits, FRICTION};
+use crate::reasons::reasons;
 use crate::run::stability::DECIBELS;
 use crate::study::DiscStudy;
 use crate::words::digits;
@@ -40,16 +42,48 @@ pub struct DiscStability {
     /// Every motion that grows by more than its error, the fastest first.
     pub unstable: Vec<Growth>,
     /// Which part of the loads causes each of them, without dither; or why that is unknown.
-    pub origins: Result<Vec<GrowthShares>, String>,
+    pub origins: Result<Vec<GrowthShares>, NoOrigins>,
     /// Critical speeds, and deflections under static loads.
     pub critical: Critical,
     /// Frictions at which a motion is marginal, with everything else as given, ascending; or why they are unknown. They have the
     /// sign of the load's own friction, and are ≥ 0 if that is zero.
-    pub changes: Result<Vec<MarginalFriction>, String>,
+    pub changes: Result<Vec<MarginalFriction>, NoMarginalFriction>,
     /// The largest friction, of either sign, up to which they are known; `None` where every one is.
     pub changes_up_to: Option<f64>,
     /// Whether the load cannot reach some motion, which is then marginal at any friction.
     pub out_of_reach: bool,
+}
+
+reasons! {
+    /// Why the kinds of instability are unknown.
+    pub enum NoOrigins {
+        ;
+        /// The disc is dithered.
+        UnderDither => "the kinds of instability are those of a disc without dither",
+    }
+}
+
+reasons! {
+    /// Why the frictions at which a motion is marginal are unknown.
+    pub enum NoMarginalFriction {
+        /// There are no exact boundaries.
+        NoBoundary(NoBoundary),
+        /// There is no partition.
+        NoPartition(NoPartition),
+        /// The exponents could not be followed.
+        NotFollowed(NotFollowerDither),
+        ;
+        /// The modes are damped.
+        DampedModes => &format!(
+            "{}; `quell map` over disc.load.friction shows the boundaries in every case",
+            NoBoundary::DampedModes
+        ),
+        /// The study leaves parts of the disc out.
+        PartsLeftOut =>
+            "marginal frictions are computed for the whole disc only, and this study leaves parts out",
+        /// The disc has no load.
+        NoLoad => "the disc has no load",
+    }
 }
 
 /// Stability of a study's disc.
@@ -71,15 +105,12 @@ pub fn run(study: &DiscStudy) -> Result<DiscStability, Failure> {
     };
     let origins = match disc.dither() {
         DiscDither::None => Ok(origins(disc, parts, &unstable).map_err(failed)?),
-        _ => Err("the kinds of instability are those of a disc without dither".to_owned()),
+        _ => Err(NoOrigins::UnderDither),
     };
     let critical = critical::run(study).map_err(failed)?;
     let mut changes_up_to = None;
     let (changes, out_of_reach) = match disc.dither() {
-        _ if parts != Contributions::ALL => (
-            Err("marginal frictions are computed for the whole disc only, and this study leaves parts out".to_owned()),
-            false,
-        ),
+        _ if parts != Contributions::ALL => (Err(NoMarginalFriction::PartsLeftOut), false),
         DiscDither::None => still(study),
         DiscDither::Normal { .. } | DiscDither::Tangential { .. } => {
             let found = shaken(study);
@@ -100,7 +131,7 @@ pub fn run(study: &DiscStudy) -> Result<DiscStability, Failure> {
 }
 
 /// Boundaries without dither.
-fn still(study: &DiscStudy) -> (Result<Vec<MarginalFriction>, String>, bool) {
+fn still(study: &DiscStudy) -> (Result<Vec<MarginalFriction>, NoMarginalFriction>, bool) {
     match boundaries(study.disc()) {
         Ok(found) => {
             let out_of_reach = found.iter().any(|boundary| boundary.friction == Marginal::Always);
@@ -116,18 +147,10 @@ fn still(study: &DiscStudy) -> (Result<Vec<MarginalFriction>, String>, bool) {
                 .collect();
             (Ok(ascending(changes)), out_of_reach)
         }
-        Err(why) => {
-            let why = match why {
-                NoBoundary::DampedModes => format!("{why}; {MAP}"),
-                _ => why.to_string(),
-            };
-            (Err(why), false)
-        }
+        Err(NoBoundary::DampedModes) => (Err(NoMarginalFriction::DampedModes), false),
+        Err(why) => (Err(why.into()), false),
     }
 }
-
-/// The alternative where no exact method gives the boundaries.
-const MAP: &str = "`quell map` over disc.load.friction shows the boundaries in every case";
 
 /// Two methods find the same friction within this share of it.
 const SAME: f64 = 1e-6;
@@ -135,10 +158,10 @@ const SAME: f64 = 1e-6;
 /// Boundaries under dither: of a sine by D-partition, which finds those of every size except two that are very close in
 /// frequency, which following the exponents finds; of any other waveform, of a slow sine and of a distributed load by
 /// following the exponents alone, up to the friction that is returned with them.
-fn shaken(study: &DiscStudy) -> Result<(Vec<MarginalFriction>, Option<f64>), String> {
+fn shaken(study: &DiscStudy) -> Result<(Vec<MarginalFriction>, Option<f64>), NoMarginalFriction> {
     let disc = study.disc();
     // The partition gives factors of the friction, so start from 1, not from 0.
-    let unit = disc.with_friction_of(0, 1.0).map_err(|_| "the disc has no load".to_owned())?;
+    let unit = disc.with_friction_of(0, 1.0).map_err(|_| NoMarginalFriction::NoLoad)?;
     let sign = sign_of_friction(study);
     let unit = if sign < 0.0 { unit.with_friction_times(-1.0).unwrap_or(unit) } else { unit };
     let change =
@@ -159,12 +182,11 @@ fn shaken(study: &DiscStudy) -> Result<(Vec<MarginalFriction>, Option<f64>), Str
             Ok((ascending(changes), None))
         }
         Err(why @ (NoPartition::Loads(_) | NoPartition::Undithered | NoPartition::Eigenvalues)) => {
-            Err(why.to_string())
+            Err(why.into())
         }
-        Err(why) if disc.law().is_some() => Err(why.to_string()),
+        Err(why) if disc.law().is_some() => Err(why.into()),
         Err(_) => {
-            let found = marginal_frictions(&unit).map_err(|why| why.to_string())?;
-            let found = found.ok_or_else(|| NoPartition::Undithered.to_string())?;
+            let found = marginal_frictions(&unit)?.ok_or(NoPartition::Undithered)?;
             let changes = found.factors.iter().map(|found| change(found.value, found.frequency));
             Ok((ascending(changes.collect()), Some(found.up_to)))
         }
@@ -248,7 +270,7 @@ impl DiscStability {
             .collect();
         if let Err(reason) = &self.origins {
             for key in ["unstable_modes[].kind", "unstable_modes[].shares"] {
-                why.insert(key.to_owned(), reason.clone().into());
+                why.insert(key.to_owned(), reason.to_string().into());
             }
         }
         object["ok"] = true.into();
@@ -266,15 +288,15 @@ impl DiscStability {
                 .map(|change| json!({ "friction": change.friction, "frequency": change.frequency }))
                 .collect(),
             Err(reason) => {
-                why.insert("changes".to_owned(), reason.clone().into());
+                why.insert("changes".to_owned(), reason.to_string().into());
                 Json::Null
             }
         };
         object["changes_up_to"] = self.changes_up_to.into();
         if self.changes_up_to.is_none() {
             let reason = match &self.changes {
-                Ok(_) => "the marginal frictions of every size are known",
-                Err(reason) => reason.as_str(),
+                Ok(_) => "the marginal frictions of every size are known".to_owned(),
+                Err(reason) => reason.to_string(),
             };
             why.insert("changes_up_to".to_owned(), reason.into());
         }

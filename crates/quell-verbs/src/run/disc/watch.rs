@@ -6,6 +6,8 @@
 
 use quell_dynamics::motion::{ContactPhase, MotionObserver, MotionSegment};
 
+use crate::reasons::reasons;
+
 /// Largest relative change of load and slip velocity of a small motion.
 const SMALL: f64 = 0.01;
 
@@ -14,6 +16,21 @@ const LEAST_EXTREMES: u64 = 6;
 
 /// Parts of a step at whose ends loads and slip velocities are looked at: a step is shorter than the period of the fastest motion.
 const PARTS: u32 = 8;
+
+reasons! {
+    /// Why the growth rate of a motion of a disc is unknown.
+    pub enum NoObservedGrowth {
+        ;
+        /// The deflection has too few extremes.
+        FewExtremes => &format!(
+            "the deflection has fewer than {LEAST_EXTREMES} extremes while loads and slip velocities differ by less than {} % from \
+             steady sliding",
+            100.0 * SMALL
+        ),
+        /// The system varies in time.
+        Varies => "the speed, a load or the dither varies in time: the growth rate is that of no moment",
+    }
+}
 
 /// Load and slip velocity of a contact in steady sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,15 +100,11 @@ impl RowWatch {
     }
 
     /// The growth rate, or why it is unknown.
-    pub(super) fn growth(&self) -> Result<f64, String> {
+    pub(super) fn growth(&self) -> Result<f64, NoObservedGrowth> {
         if self.line.count >= LEAST_EXTREMES {
             return Ok(self.line.slope());
         }
-        Err(format!(
-            "the deflection has fewer than {LEAST_EXTREMES} extremes while loads and slip velocities differ by less than {} % from \
-             steady sliding",
-            100.0 * SMALL
-        ))
+        Err(NoObservedGrowth::FewExtremes)
     }
 
     /// Whether every contact slips near its steady load and slip velocity at a moment of a step.

@@ -1,12 +1,15 @@
 //! Friction of one contact over the slip velocity, and its columns.
 
+use std::fmt::Display;
+
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::SteadyFriction;
-use quell_linear::averaging::{Effective, SlopeSide};
+use quell_linear::averaging::{AveragingError, Effective, SlopeSide};
 use quell_model::Friction;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::unknown::{FrictionAtRest, LimitMean, MeasuredFriction, NoMeanOfContact, NotFreeMass};
 use crate::fields::Fields;
 
 /// Friction of one contact over its slip velocity.
@@ -21,7 +24,7 @@ pub struct ContactFriction {
     /// Its law.
     pub law: Friction,
     /// Largest fast slip velocity in the study, or why it is unknown.
-    pub fast_velocity: Result<f64, String>,
+    pub fast_velocity: Result<f64, AveragingError>,
     /// Friction over the slip velocity.
     pub curve: FrictionCurve,
 }
@@ -32,10 +35,10 @@ pub struct FrictionPoint {
     /// Slip velocity v_r.
     pub slip_velocity: f64,
     /// μ with the sign of v_r, dimensionless; or why it has no single value.
-    pub coefficient: Result<f64, String>,
+    pub coefficient: Result<f64, FrictionAtRest>,
     /// μ̄, dimensionless, and its slope per unit of v_r, by finite-R averaging; of a contact with a state its mean over the periodic state;
     /// or why they are undefined.
-    pub effective: Result<Effective, String>,
+    pub effective: Result<Effective, NoMeanOfContact>,
 }
 
 /// Friction of a contact over its slip velocity.
@@ -45,9 +48,9 @@ pub struct FrictionCurve {
     pub points: Vec<FrictionPoint>,
     /// μ̄ and its slope in the limit of high dither frequency, R → ∞, where the masses are free, or why the contact has no such limit; `None`
     /// without dither, and of a contact with a state of its own.
-    pub limit: Option<Result<Vec<Result<Effective, String>>, String>>,
+    pub limit: Option<Result<Vec<LimitMean>, NotFreeMass>>,
     /// ⟨f/N⟩ of the steady response at each point, or why it has no value; `None` if it was not requested.
-    pub measured: Option<Vec<Result<SteadyFriction, String>>>,
+    pub measured: Option<Vec<MeasuredFriction>>,
 }
 
 impl FrictionCurve {
@@ -150,7 +153,7 @@ impl FrictionCurve {
             None => {}
             Some(Err(why)) => {
                 for name in names {
-                    fields.unknown(name, why.as_str());
+                    fields.unknown(name, why);
                 }
             }
             Some(Ok(limit)) => {
@@ -190,10 +193,10 @@ impl FrictionCurve {
 }
 
 /// Why columns have nulls: the reason of each entry, and that entries have reasons.
-fn missing<'a, V: 'a>(
+fn missing<'a, V: 'a, E: Display + 'a>(
     fields: &mut Fields,
     names: &[&str],
-    values: impl Iterator<Item = &'a Result<V, String>>,
+    values: impl Iterator<Item = &'a Result<V, E>>,
 ) {
     let mut any = false;
     for (index, why) in

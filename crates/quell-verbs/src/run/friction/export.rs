@@ -111,9 +111,9 @@ fn averaged(
     let mut coefficients = Vec::with_capacity(speeds.len());
     for (index, point) in points.into_iter().enumerate() {
         let found = match point.effective {
-            Err(_) if index == 0 => {
+            Err(why) if index == 0 => {
                 let near = own.points(&[LIMIT * fastest]);
-                near.into_iter().next().map_or(Err(String::new()), |point| point.effective)
+                near.into_iter().next().map_or(Err(why), |point| point.effective)
             }
             found => found,
         };
@@ -157,5 +157,5 @@ fn same_in_both_directions(
 }
 
 fn failed(why: String) -> Failure {
-    Failure::Failed { key: "--save".to_owned(), why }
+    Failure::Failed { key: "--save".to_owned(), why: why.into() }
 }

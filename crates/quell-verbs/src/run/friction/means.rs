@@ -5,15 +5,20 @@
 //! it: at contacts with normals or slopes, and under dither of a load or of friction. Otherwise it is computed once.
 
 use quell_dynamics::mean_friction::mean_friction;
-use quell_dynamics::response::{SteadyFriction, steady_effective_friction};
+use quell_dynamics::response::steady_effective_friction;
 use quell_dynamics::simulation::DEFAULT_TOLERANCE;
-use quell_linear::averaging::{AveragedLaw, Averaging, DitheredContact, DitheredSystem, Effective};
+use quell_linear::averaging::{
+    AveragedLaw, Averaging, AveragingError, DitheredContact, DitheredSystem, Effective,
+};
 use quell_model::profile::Profile;
 use quell_model::system::{Contact, Input, InputTarget};
 use quell_model::{Belt, Friction, System};
 use quell_numerics::order::ascending;
 
 use super::curve::FrictionPoint;
+use super::unknown::{
+    FrictionAtRest, LimitMean, MeasuredFriction, NoMeanOfContact, NoMeasuredFriction, NotFreeMass,
+};
 use crate::parallel::Parallel;
 
 /// Points of the default grid on each side of v_r = 0.
@@ -27,9 +32,9 @@ pub(super) struct ContactAverages<'a> {
     system: &'a System,
     index: usize,
     /// Its averaged law and its mean load in the study's own sliding.
-    own: Result<(AveragedLaw, f64), String>,
+    own: Result<(AveragedLaw, f64), AveragingError>,
     /// The contact in the limit of high frequency.
-    pub(super) limit: Result<Belt, String>,
+    pub(super) limit: Result<Belt, NotFreeMass>,
 }
 
 /// Every contact of a system.
@@ -39,23 +44,21 @@ pub(super) fn contacts(system: &System) -> Vec<ContactAverages<'_>> {
         system,
         index,
         own: laws.as_ref().map_err(Clone::clone).map(|laws| laws[index].clone()),
-        limit: system.free_mass(index).map_err(|why| {
-            format!("the limit of high frequency is that of a free mass under its dither: {why}")
-        }),
+        limit: system.free_mass(index).map_err(NotFreeMass::from),
     };
     (0..system.contacts.len()).map(of).collect()
 }
 
 /// The averaged law of every contact in the study's own sliding, and its mean load.
-fn averaged(system: &System) -> Result<Vec<(AveragedLaw, f64)>, String> {
-    let prepared = DitheredSystem::new(system).map_err(|why| why.to_string())?;
-    let average = prepared.average().map_err(|why| why.to_string())?;
+fn averaged(system: &System) -> Result<Vec<(AveragedLaw, f64)>, AveragingError> {
+    let prepared = DitheredSystem::new(system)?;
+    let average = prepared.average()?;
     let contacts = average.contacts.iter().enumerate();
     let law = |(index, contact): (usize, &DitheredContact)| {
         let load = contact.normal_load;
         prepared.fast().law(system, (index, load), None).map(|law| (law, load))
     };
-    contacts.map(law).collect::<Result<_, _>>().map_err(|why| why.to_string())
+    contacts.map(law).collect()
 }
 
 impl ContactAverages<'_> {
@@ -64,12 +67,12 @@ impl ContactAverages<'_> {
     }
 
     /// Largest fast slip velocity in the study's own sliding.
-    pub(super) fn fast_velocity(&self) -> Result<f64, String> {
+    pub(super) fn fast_velocity(&self) -> Result<f64, AveragingError> {
         if !self.system.is_dithered() {
             return Ok(0.0);
         }
-        let (law, _) = self.own.as_ref()?;
-        law.fast_velocity().map_err(|why| why.to_string())
+        let (law, _) = self.own.as_ref().map_err(Clone::clone)?;
+        law.fast_velocity()
     }
 
     /// The load over which the averages are; where they are unknown, that of the study.
@@ -97,48 +100,40 @@ impl ContactAverages<'_> {
         points.collect()
     }
 
-    fn mean_at(&self, v: f64) -> Result<Effective, String> {
+    fn mean_at(&self, v: f64) -> Result<Effective, NoMeanOfContact> {
         if self.contact().has_state() {
             return self.mean_of_state(v);
         }
         if !self.system.is_dithered() {
             // The law itself, whether or not the surface of the study moves.
             let law = AveragedLaw::undithered(&self.contact().friction);
-            return law.at(v).map_err(|why| why.to_string());
+            return Ok(law.at(v)?);
         }
         if !depends_on_friction(self.system) {
-            let (law, _) = self.own.as_ref()?;
-            return law.at(v).map_err(|why| why.to_string());
+            let (law, _) = self.own.as_ref().map_err(Clone::clone)?;
+            return Ok(law.at(v)?);
         }
         let mut there = self.system.clone();
         there.contacts[self.index].surface_velocity = Profile::constant(v);
-        averaged(&there)?[self.index].0.at(v).map_err(|why| why.to_string())
+        Ok(averaged(&there)?[self.index].0.at(v)?)
     }
 
-    fn mean_of_state(&self, v: f64) -> Result<Effective, String> {
-        let belt = self.limit.as_ref().map_err(|why| {
-            format!(
-                "the mean of a contact with a state of its own is that of its periodic state: {why}; `response` gives its mean friction"
-            )
-        })?;
+    fn mean_of_state(&self, v: f64) -> Result<Effective, NoMeanOfContact> {
+        let belt = self.limit.as_ref().map_err(Clone::clone)?;
         if belt.dithers().iter().any(|dither| !dither.waveform.is_periodic()) {
-            return Err("the mean of a contact with a state of its own is that of its periodic state, and under noise it has none"
-                .to_owned());
+            return Err(NoMeanOfContact::UnderNoise);
         }
-        mean_friction(belt, v).map_err(|why| why.to_string())
+        Ok(mean_friction(belt, v)?)
     }
 
     /// The averages in the limit of high frequency; `None` without dither and of a contact with a state.
-    pub(super) fn limits(
-        &self,
-        at: &[f64],
-    ) -> Option<Result<Vec<Result<Effective, String>>, String>> {
+    pub(super) fn limits(&self, at: &[f64]) -> Option<Result<Vec<LimitMean>, NotFreeMass>> {
         if self.system.waves().next().is_none() || self.contact().has_state() {
             return None;
         }
         let in_the_limit = |belt: &Belt, v: f64| {
             let law = AveragedLaw::of_one_mass(belt, v, Averaging::Limit);
-            law.and_then(|law| law.at(v)).map_err(|why| why.to_string())
+            law.and_then(|law| law.at(v))
         };
         let belt = self.limit.as_ref().map_err(Clone::clone);
         Some(belt.map(|belt| at.in_parallel(|&v| in_the_limit(belt, v)).collect()))
@@ -146,12 +141,12 @@ impl ContactAverages<'_> {
 }
 
 /// Friction of steady responses of one mass at slip velocities (4.30), (4.31), in parallel on all cores.
-pub(super) fn measured(belt: &Belt, at: &[f64]) -> Vec<Result<SteadyFriction, String>> {
+pub(super) fn measured(belt: &Belt, at: &[f64]) -> Vec<MeasuredFriction> {
     let measured = at.in_parallel(|&v| {
         if v == 0.0 {
-            return Err("at zero slip velocity the surface does not move".to_owned());
+            return Err(NoMeasuredFriction::SurfaceAtRest);
         }
-        steady_effective_friction(belt, v, DEFAULT_TOLERANCE).map_err(|why| why.to_string())
+        Ok(steady_effective_friction(belt, v, DEFAULT_TOLERANCE)?)
     });
     measured.collect()
 }
@@ -191,10 +186,9 @@ fn grid_of(law: &Friction, velocity: f64, fast: f64) -> Vec<f64> {
 }
 
 /// The friction coefficient of a law, with the sign of the slip velocity; or why it has no single value.
-fn coefficient_at(law: &Friction, v: f64) -> Result<f64, String> {
+fn coefficient_at(law: &Friction, v: f64) -> Result<f64, FrictionAtRest> {
     if v == 0.0 {
-        let level = law.static_coefficient();
-        return Err(format!("at rest friction takes any value up to ±{level}"));
+        return Err(FrictionAtRest { static_coefficient: law.static_coefficient() });
     }
     Ok(v.signum() * law.coefficient(v.abs()))
 }

@@ -3,6 +3,7 @@
 mod curve;
 pub mod export;
 mod means;
+mod unknown;
 mod warnings;
 
 use quell_linear::averaging::Effective;
@@ -11,6 +12,9 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 pub use self::curve::{ContactFriction, FrictionCurve, FrictionPoint};
+pub use self::unknown::{
+    FrictionAtRest, LimitMean, MeasuredFriction, NoMeanOfContact, NoMeasuredFriction, NotFreeMass,
+};
 
 use super::system::has_equations;
 use crate::complaint::{Complaint, Failure, Fault, Origin};

@@ -1,12 +1,12 @@
 //! Warnings about the friction of a contact: slip beyond the range of its law, and averages that do not hold.
 
-use quell_dynamics::response::SteadyFriction;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
 use quell_model::{Belt, Contact, Direction, System};
 
 use super::curve::ContactFriction;
 use super::means::ContactAverages;
+use super::unknown::MeasuredFriction;
 use crate::contact_state::{FastContact, without_state};
 use crate::range;
 use crate::run::stability::not_slow;
@@ -84,7 +84,7 @@ impl ContactFriction {
     /// Where the measured friction differs most from the averaged one, and from which slip velocity on they
     /// agree.
     fn averaging_is_off(&self, words: impl Fn(f64) -> String) -> Option<String> {
-        let measured: &[Result<SteadyFriction, String>] = self.curve.measured.as_deref()?;
+        let measured: &[MeasuredFriction] = self.curve.measured.as_deref()?;
         // (|v_r|, measured/averaged)
         let ratios: Vec<(f64, f64)> = self
             .curve

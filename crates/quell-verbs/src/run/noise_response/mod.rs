@@ -8,8 +8,12 @@
 
 mod runs;
 
+use quell_linear::averaging::AveragingError;
+use quell_linear::driven_point::NoDrivenPoint;
 use quell_linear::linear_cost::NoiseCost;
+use quell_linear::steady::NoSteadySliding;
 use quell_model::units::Quantity;
+use quell_numerics::eigen::EigenError;
 use quell_numerics::order::ascending;
 use serde_json::Value as Json;
 
@@ -17,6 +21,8 @@ use super::basins::{Share, StartLayout};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::reasons::reasons;
+use crate::run::response::NoResidualVibration;
 use crate::words::{capital, digits, plural};
 
 pub use runs::run;
@@ -41,13 +47,50 @@ pub struct NoisyContact {
     pub friction: f64,
 }
 
+reasons! {
+    /// Why the root mean squares of a dither are unknown.
+    pub enum NoNoiseCost {
+        /// There is no steady sliding.
+        NoSliding(NoSteadySliding),
+        /// The cost is unknown.
+        NoCost(NoDrivenPoint),
+        /// The dither is no sum of sines, but the waveform with this name.
+        NoSines(&'static str) => "it is computed for sums of sines, and this dither is a \"{}\"",
+        ;
+        /// The input has no wave, or several.
+        NotOneWave => "the input has no wave, or several",
+    }
+}
+
+reasons! {
+    /// Why the spread of E over the runs is unknown.
+    enum NoSpread {
+        /// E is undefined.
+        Undefined(NoResidualVibration),
+        ;
+        /// No run was made.
+        NoRun => "no run",
+    }
+}
+
+reasons! {
+    /// Why the averaged growth rate of small slow motions is unknown.
+    pub enum NoAveragedGrowth {
+        /// There is no average.
+        NoAverage(AveragingError),
+        /// The eigenvalues are unknown.
+        Eigenvalues(EigenError),
+        ;
+    }
+}
+
 /// One run under noise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoisyRun {
     /// The seed of its first noise.
     pub seed: u64,
     /// E, or why it is undefined.
-    pub residual_vibration: Result<f64, String>,
+    pub residual_vibration: Result<f64, NoResidualVibration>,
     /// M, the largest spectral amplitude in the band of slow vibration.
     pub amplitude: f64,
     /// Whether M of the halves of the record agree.
@@ -68,9 +111,9 @@ pub struct NoiseResponse {
     /// Mean friction of every contact without dither.
     pub undithered_friction: Vec<f64>,
     /// Root mean squares of the linear response to the dither, to each of them, or why they are unknown.
-    pub costs: Vec<Result<NoiseCost, String>>,
+    pub costs: Vec<Result<NoiseCost, NoNoiseCost>>,
     /// Largest growth rate of small slow motions, averaged over the Gaussian distribution of the noise; or why it is unknown.
-    pub averaged: Result<f64, String>,
+    pub averaged: Result<f64, NoAveragedGrowth>,
     /// The start of every run in words.
     pub start: String,
     /// Time before the record.
@@ -121,15 +164,15 @@ impl NoiseResponse {
     ///
     /// # Errors
     /// Why E is undefined.
-    pub fn residual_vibrations(&self) -> Result<Vec<f64>, String> {
-        self.runs.iter().map(|run| run.residual_vibration.clone()).collect()
+    pub fn residual_vibrations(&self) -> Result<Vec<f64>, NoResidualVibration> {
+        self.runs.iter().map(|run| run.residual_vibration).collect()
     }
 
     /// The share of quiet runs.
     ///
     /// # Errors
     /// Why E is undefined.
-    pub fn quiet(&self) -> Result<Share, String> {
+    pub fn quiet(&self) -> Result<Share, NoResidualVibration> {
         let inside: Vec<bool> = self
             .residual_vibrations()?
             .iter()
@@ -215,16 +258,16 @@ impl NoiseResponse {
             .known("quiet_fraction_low", Quantity::Ratio, share(|share| share.low))
             .known("quiet_fraction_high", Quantity::Ratio, share(|share| share.high))
             .plain("interval", "Wilson, 95 %")
-            .rate("averaged_growth_rate", self.averaged.clone())
+            .known_rate("averaged_growth_rate", self.averaged.clone())
             .plain("seeds", self.seeds());
         let each = self.residual_vibrations();
         match &each {
             Ok(each) => fields.numbers("residual_vibration", Quantity::Ratio, each),
-            Err(why) => fields.unknown("residual_vibration", why.as_str()),
+            Err(why) => fields.unknown("residual_vibration", why),
         };
         let of = |place: usize| {
-            let spread = each.as_ref().map_err(Clone::clone).map(|each| spread(each));
-            spread.and_then(|found| found.map(|all| all[place]).ok_or_else(|| "no run".to_owned()))
+            let each = each.as_ref().map_err(|why| NoSpread::Undefined(*why))?;
+            spread(each).map(|all| all[place]).ok_or(NoSpread::NoRun)
         };
         fields
             .known("residual_vibration_least", Quantity::Ratio, of(0))
@@ -247,9 +290,9 @@ impl NoiseResponse {
     }
 
     /// Root mean squares of the dither; its peaks have no value.
-    fn put_cost(cost: &Result<NoiseCost, String>, fields: &mut Fields) {
+    fn put_cost(cost: &Result<NoiseCost, NoNoiseCost>, fields: &mut Fields) {
         let of = |value: fn(&NoiseCost) -> f64| cost.as_ref().map(value).map_err(Clone::clone);
-        let peak = || Err("noise has no largest value; see the root mean square".to_owned());
+        let peak = || Err("noise has no largest value; see the root mean square");
         fields
             .known("force_rms", Quantity::Force, of(|cost| cost.force))
             .known("displacement_rms", Quantity::Displacement, of(|cost| cost.displacement))

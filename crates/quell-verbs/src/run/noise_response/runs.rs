@@ -8,10 +8,10 @@ use quell_linear::linearised::Linearised;
 use quell_model::waveform::Noise;
 use quell_model::{Input, System, Waveform};
 
-use super::{NoiseResponse, NoisyContact, NoisyRun, number_of_runs};
+use super::{NoAveragedGrowth, NoNoiseCost, NoiseResponse, NoisyContact, NoisyRun, number_of_runs};
 use crate::complaint::Failure;
 use crate::parallel::Parallel;
-use crate::run::response::{ResponseRequest, plan_of, refused, undefined};
+use crate::run::response::{NoResidualVibration, ResponseRequest, plan_of, refused};
 use crate::run::system::has_equations;
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::{start_in_words, start_of};
@@ -62,7 +62,7 @@ fn run_of(system: &System, response: &SteadyResponse) -> (NoisyRun, Vec<f64>) {
     });
     let run = NoisyRun {
         seed,
-        residual_vibration: response.residual_vibration.map_err(undefined),
+        residual_vibration: response.residual_vibration.map_err(NoResidualVibration),
         amplitude: record.lines.whole,
         settled: response.vibrations.dithered.is_settled(response.vibrations.undithered.whole()),
         contacts: contacts.collect(),
@@ -72,29 +72,25 @@ fn run_of(system: &System, response: &SteadyResponse) -> (NoisyRun, Vec<f64>) {
 }
 
 /// Root mean squares of every dither at its driven point, without the slope of friction.
-fn costs(system: &System) -> Vec<Result<NoiseCost, String>> {
+fn costs(system: &System) -> Vec<Result<NoiseCost, NoNoiseCost>> {
     let sliding = match Linearised::new(system) {
         Ok(sliding) => sliding,
-        Err(why) => return vec![Err(why.to_string()); system.inputs.len()],
+        Err(why) => return vec![Err(why.into()); system.inputs.len()],
     };
     let of = |input: &Input| {
         let [wave] = input.profile.waves() else {
-            return Err("the input has no wave, or several".to_owned());
+            return Err(NoNoiseCost::NotOneWave);
         };
         if wave.waveform != Waveform::Sine && !wave.waveform.is_sum_of_sines() {
-            let name = wave.waveform.name();
-            return Err(format!(
-                "it is computed for sums of sines, and this dither is a \"{name}\""
-            ));
+            return Err(NoNoiseCost::NoSines(wave.waveform.name()));
         }
-        noise_input_cost(system, &sliding, &input.target, wave).map_err(|why| why.to_string())
+        Ok(noise_input_cost(system, &sliding, &input.target, wave)?)
     };
     system.inputs.iter().map(of).collect()
 }
 
 /// The largest growth rate of small slow motions, averaged over the distribution of the noise.
-fn averaged(system: &System) -> Result<f64, String> {
+fn averaged(system: &System) -> Result<f64, NoAveragedGrowth> {
     let average = DitheredSystem::new(system).and_then(|prepared| prepared.average());
-    let growth = average.map_err(|why| why.to_string())?.growth();
-    growth.map(|growth| growth.rate).map_err(|why| why.to_string())
+    Ok(average?.growth()?.rate)
 }

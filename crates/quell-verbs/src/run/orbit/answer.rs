@@ -343,7 +343,7 @@ impl PeriodicResponse {
     /// # Errors
     /// [`Failure::Failed`] if no periodic motion exists.
     pub fn dataset(&self, study: &SystemStudy) -> Result<Dataset, Failure> {
-        let why = || Failure::Failed { key: "--save".to_owned(), why: self.sentence(study) };
+        let why = || Failure::Failed { key: "--save".to_owned(), why: self.sentence(study).into() };
         let found = self.found.as_ref().ok_or_else(why)?;
         Ok(dataset(study, found).fact(self.sentence(study)))
     }

@@ -3,9 +3,9 @@
 
 use quell_dynamics::attractor::orbit_of_run;
 use quell_dynamics::orbit::{
-    BASE_STEPS, CycleSamples, CycleSearch, NamedStart, NoOrbit, Orbit, OrbitVerdict, SettledMotion,
-    TriedStart, base_response, limit_cycles, near, search_cycle, shortened, sliding_verdict,
-    usual_starts,
+    BASE_STEPS, CycleSamples, CycleSearch, NamedStart, NoOrbit, NoSlidingVerdict, Orbit,
+    OrbitVerdict, SettledMotion, TriedStart, base_response, limit_cycles, near, search_cycle,
+    shortened, sliding_verdict, usual_starts,
 };
 use quell_dynamics::simulation::within;
 use quell_linear::growth::Verdict;
@@ -102,7 +102,7 @@ pub struct PeriodicResponse {
     /// Starts from which no limit cycle was reached.
     pub tried: Vec<TriedStart>,
     /// Verdict on steady sliding of an undithered system, or why it is unknown.
-    pub sliding: Option<Result<&'static str, String>>,
+    pub sliding: Option<Result<&'static str, NoSlidingVerdict>>,
 }
 
 /// The periodic motion of a study.
@@ -245,7 +245,7 @@ fn undithered(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, 
             searched(starts)
         }
     };
-    let sliding = sliding_verdict(&free).map(Verdict::name).map_err(|why| why.to_string());
+    let sliding = sliding_verdict(&free).map(Verdict::name);
     Ok(PeriodicResponse { found, cycles, tried, sliding: Some(sliding) })
 }
 

@@ -4,7 +4,9 @@ use quell_design::probability::{SobolEstimate, SobolIndices, quantile};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{ProbabilityStart, SampledGrowth, SampledKind, VerdictTally, VibrationProbability};
+use super::{
+    NoIndices, ProbabilityStart, SampledGrowth, SampledKind, VerdictTally, VibrationProbability,
+};
 use crate::fields::Fields;
 use crate::run::stability::FAST;
 use crate::words::{plural, quantity_at};
@@ -153,11 +155,8 @@ impl VibrationProbability {
         for (group, found) in self.groups.iter().zip(&growth.indices) {
             for place in group {
                 let mut inner = study.fields();
-                let found = if group.len() == 1 {
-                    found.clone()
-                } else {
-                    Err("it is correlated with other numbers: indices are known for their group, in groups".to_owned())
-                };
+                let found =
+                    if group.len() == 1 { found.clone() } else { Err(NoIndices::Correlated) };
                 put_indices(&mut inner, &found);
                 fields.nested(&self.paths[*place], inner);
             }
@@ -181,8 +180,10 @@ impl VibrationProbability {
                 samples(self.verdicts.unknown)
             ));
         }
-        if let Some(why) =
-            self.growth.why.as_ref().filter(|why| self.verdicts.why.as_ref() != Some(why))
+        // A growth rate that leaves a verdict open was named with the verdicts.
+        let of_verdicts = self.verdicts.why.as_ref().map(ToString::to_string);
+        if let Some(why) = (self.growth.why.as_ref().map(ToString::to_string))
+            .filter(|why| of_verdicts.as_ref() != Some(why))
         {
             warnings.push(format!(
                 "the growth rate of {} is unknown. The first: {why}",
@@ -243,7 +244,9 @@ fn quantiles(study: &impl SampledKind, growth: &SampledGrowth) -> Fields {
     let mut inner = study.fields();
     let found = growth.quantiles();
     for (place, (key, _)) in QUANTILES.iter().enumerate() {
-        let why = || growth.why.clone().unwrap_or_else(|| "no growth rate is known".to_owned());
+        let why = || {
+            growth.why.as_ref().map_or("no growth rate is known".to_owned(), ToString::to_string)
+        };
         study.put_rate(&mut inner, key, found.map(|found| found[place]).ok_or_else(why));
     }
     let mut fields = study.fields();
@@ -272,7 +275,7 @@ fn put_tally(fields: &mut Fields, tally: &VerdictTally) {
         .plain("unknown", tally.unknown);
 }
 
-fn put_indices(fields: &mut Fields, found: &Result<SobolIndices, String>) {
+fn put_indices(fields: &mut Fields, found: &Result<SobolIndices, NoIndices>) {
     match found {
         Ok(SobolIndices { first, total }) => {
             fields
@@ -283,7 +286,7 @@ fn put_indices(fields: &mut Fields, found: &Result<SobolIndices, String>) {
         }
         Err(why) => {
             for name in ["first", "first_error", "total", "total_error"] {
-                fields.unknown(name, why.as_str());
+                fields.unknown(name, why);
             }
         }
     }

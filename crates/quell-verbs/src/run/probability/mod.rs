@@ -7,15 +7,21 @@
 mod answer;
 mod sampled;
 mod thresholds;
+mod unknown;
 
 use std::sync::atomic::Ordering;
 
 use crate::parallel::Parallel;
 use quell_design::probability::{SobolIndices, binomial_interval, quantile, sobol_indices};
+use quell_model::RefusedNumbers;
 use quell_numerics::order::ascending;
 
 pub use sampled::{AveragedGrowth, JudgedGrowth, SampledKind};
 pub use thresholds::SampledThresholds;
+pub use unknown::{
+    NoIndices, NoSampledGrowth, NoSampledThreshold, NoSampledVerdict, NoThresholdQuantile,
+    RefusedStart,
+};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::running::Running;
@@ -29,9 +35,6 @@ pub const SAMPLES_OF_MOTIONS: usize = 1000;
 
 /// Most samples.
 pub const MOST_SAMPLES: usize = 10_000_000;
-
-/// Why the threshold of a sample that a run judges is unknown.
-const OF_RUNS: &str = "thresholds are those of small motions: by averaging, or with --start local";
 
 /// Points in one piece of work.
 const CHUNK: usize = 64;
@@ -120,11 +123,11 @@ pub struct VerdictTally {
     /// Samples whose verdict is unknown.
     pub unknown: usize,
     /// Why the first of them is.
-    pub why: Option<String>,
+    pub why: Option<NoSampledVerdict>,
 }
 
 impl VerdictTally {
-    fn of<'a>(verdicts: impl Iterator<Item = &'a Result<bool, String>>) -> Self {
+    fn of<'a>(verdicts: impl Iterator<Item = &'a Result<bool, NoSampledVerdict>>) -> Self {
         let mut tally = Self::default();
         for verdict in verdicts {
             match verdict {
@@ -162,9 +165,9 @@ pub struct SampledGrowth {
     /// Samples whose growth rate is unknown.
     pub unknown: usize,
     /// Why the first of them is.
-    pub why: Option<String>,
+    pub why: Option<NoSampledGrowth>,
     /// Sobol indices of each group of numbers, or why they are unknown.
-    pub indices: Vec<Result<SobolIndices, String>>,
+    pub indices: Vec<Result<SobolIndices, NoIndices>>,
 }
 
 /// How probable it is that a study vibrates.
@@ -201,7 +204,7 @@ pub struct VibrationProbability {
     /// Samples that are no valid studies.
     pub invalid: usize,
     /// Why the first of them is none.
-    pub invalid_why: Option<String>,
+    pub invalid_why: Option<RefusedNumbers>,
 }
 
 /// One sample: its growth at the first point, the second, and the mixed ones, its verdict and its threshold.
@@ -209,8 +212,8 @@ struct JudgedSample {
     first: AveragedGrowth,
     second: AveragedGrowth,
     mixed: Vec<AveragedGrowth>,
-    verdict: Result<bool, String>,
-    threshold: Option<Result<f64, String>>,
+    verdict: Result<bool, NoSampledVerdict>,
+    threshold: Option<Result<f64, NoSampledThreshold>>,
 }
 
 /// How probable it is that a study vibrates.
@@ -247,7 +250,7 @@ where
     let parameters =
         paths.iter().map(|path| model.parameter(path)).collect::<Result<Vec<_>, _>>()?;
     let single = joint.groups().len() == 1;
-    let sample = |number: usize| -> Result<JudgedSample, String> {
+    let sample = |number: usize| -> Result<JudgedSample, RefusedNumbers> {
         let points = joint.sample(seed, number as u64);
         let at = |values: &[f64]| {
             let numbers: Vec<(ParameterId, f64)> =
@@ -257,13 +260,13 @@ where
         let first = at(&points.first)?;
         let growth = study.averaged_growth(&first);
         let verdict = match start {
-            ProbabilityStart::Averaged => verdict(&growth.growth),
+            ProbabilityStart::Averaged => verdict(&growth.growth).map_err(NoSampledVerdict::from),
             _ => study.vibrates(&first, start),
         };
         let threshold = SampledThresholds::includes(number).then(|| match start {
             ProbabilityStart::Averaged => study.threshold(&first, false),
             ProbabilityStart::Local => study.threshold(&first, true),
-            ProbabilityStart::Rest | ProbabilityStart::Squeal => Err(OF_RUNS.to_owned()),
+            ProbabilityStart::Rest | ProbabilityStart::Squeal => Err(NoSampledThreshold::OfRuns),
         });
         let second = study.averaged_growth(&at(&points.second)?);
         // With one group the mixed point is the second one.
@@ -271,7 +274,7 @@ where
             vec![second.clone()]
         } else {
             let mixed = points.mixed.iter().map(|values| Ok(study.averaged_growth(&at(values)?)));
-            mixed.collect::<Result<_, String>>()?
+            mixed.collect::<Result<_, RefusedNumbers>>()?
         };
         Ok(JudgedSample { first: growth, second, mixed, verdict, threshold })
     };
@@ -283,11 +286,11 @@ where
             return None;
         }
         let range = chunk * CHUNK..samples.min((chunk + 1) * CHUNK);
-        let done: Vec<Result<JudgedSample, String>> = range.map(sample).collect();
+        let done: Vec<Result<JudgedSample, RefusedNumbers>> = range.map(sample).collect();
         running.progress.advance(done.len());
         Some(done)
     };
-    let found: Option<Vec<Vec<Result<JudgedSample, String>>>> =
+    let found: Option<Vec<Vec<Result<JudgedSample, RefusedNumbers>>>> =
         pool.install(|| chunks.in_parallel(of_chunk).collect());
     running.progress.end();
     let Some(found) = found else { return Err(super::stopped("probability")) };
@@ -305,8 +308,7 @@ where
     let groups = joint.groups().to_vec();
     let averaged = start == ProbabilityStart::Averaged;
     let has_limit = valid.iter().any(|sample| sample.first.limit.is_some());
-    let limit_verdicts: Vec<Result<bool, String>> =
-        valid.iter().filter_map(|sample| Some(verdict(sample.first.limit.as_ref()?))).collect();
+    let limit_verdicts = limit_verdicts(&valid);
     Ok(VibrationProbability {
         start,
         samples,
@@ -329,6 +331,12 @@ where
     })
 }
 
+/// The verdicts in the limit of high dither frequency, of the samples that have one.
+fn limit_verdicts(samples: &[JudgedSample]) -> Vec<Result<bool, NoSampledVerdict>> {
+    let growths = samples.iter().filter_map(|sample| sample.first.limit.as_ref());
+    growths.map(|growth| Ok(verdict(growth)?)).collect()
+}
+
 /// Whether the two methods of averaging have different verdicts.
 fn disagree(growth: &AveragedGrowth) -> bool {
     let limit = growth.limit.as_ref().and_then(|found| verdict(found).ok());
@@ -336,12 +344,12 @@ fn disagree(growth: &AveragedGrowth) -> bool {
 }
 
 /// The verdict of a growth rate.
-fn verdict(growth: &Result<JudgedGrowth, String>) -> Result<bool, String> {
-    growth.as_ref().map_err(Clone::clone).and_then(|growth| growth.vibrates.clone())
+fn verdict(growth: &OneGrowth) -> Result<bool, NoSampledGrowth> {
+    Ok(growth.as_ref().map_err(Clone::clone)?.vibrates?)
 }
 
 /// A growth rate of one method of averaging.
-type OneGrowth = Result<JudgedGrowth, String>;
+type OneGrowth = Result<JudgedGrowth, NoSampledGrowth>;
 
 /// The growth rates of samples by one method of averaging.
 fn growth(
@@ -360,10 +368,9 @@ fn growth(
         };
         let known: Vec<(f64, f64, f64)> = samples.iter().filter_map(triple).collect();
         if unknown > 0 && 2 * unknown > samples.len() {
-            return Err("most growth rates are unknown".to_owned());
+            return Err(NoIndices::MostUnknown);
         }
-        sobol_indices(&known)
-            .ok_or_else(|| "the growth rates do not vary, or too few are known".to_owned())
+        sobol_indices(&known).ok_or(NoIndices::NoVariance)
     });
     SampledGrowth { indices: indices.collect(), unknown, why, rates }
 }

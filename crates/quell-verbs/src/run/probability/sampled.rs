@@ -1,14 +1,17 @@
 //! The kinds of study whose numbers can be uncertain, and the judges of one sample.
 
+use std::fmt::Display;
+
 use quell_design::least_dither::averaged_quiet;
 use quell_dynamics::attractor::end_of_run;
 use quell_linear::averaging::{AveragedVerdict, Averaging, criterion};
 use quell_linear::growth::{Growth, Verdict, of_criterion};
 use quell_model::disc::Disc;
 use quell_model::units::Quantity;
-use quell_model::{Dither, Input, OneMass, System};
+use quell_model::{Dither, Input, OneMass, RefusedNumbers, System};
 
-use super::ProbabilityStart;
+use super::unknown::{NoSampledGrowth, NoSampledThreshold, NoSampledVerdict, RefusedStart};
+use super::{ProbabilityStart, verdict};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_where_averaged;
 use crate::disc_units::DiscUnits;
@@ -29,7 +32,7 @@ pub struct JudgedGrowth {
     /// The growth rate.
     pub rate: f64,
     /// Whether small motions grow, or why that is unknown.
-    pub vibrates: Result<bool, String>,
+    pub vibrates: Result<bool, Status>,
 }
 
 impl JudgedGrowth {
@@ -37,7 +40,7 @@ impl JudgedGrowth {
         let vibrates = match growth.verdict() {
             Verdict::Unstable => Ok(true),
             Verdict::Stable => Ok(false),
-            Verdict::Undecided => Err(Status::WithinError.about().to_owned()),
+            Verdict::Undecided => Err(Status::WithinError),
         };
         Self { rate: growth.rate, vibrates }
     }
@@ -47,9 +50,9 @@ impl JudgedGrowth {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AveragedGrowth {
     /// With the response of the structure to the dither.
-    pub growth: Result<JudgedGrowth, String>,
+    pub growth: Result<JudgedGrowth, NoSampledGrowth>,
     /// Of one mass under dither in the limit R → ∞.
-    pub limit: Option<Result<JudgedGrowth, String>>,
+    pub limit: Option<Result<JudgedGrowth, NoSampledGrowth>>,
     /// Whether slip leaves the range of a friction law.
     pub beyond_range: bool,
     /// Whether the fast motion opens a contact.
@@ -59,7 +62,7 @@ pub struct AveragedGrowth {
 }
 
 impl AveragedGrowth {
-    fn of(growth: Result<JudgedGrowth, String>) -> Self {
+    fn of(growth: Result<JudgedGrowth, NoSampledGrowth>) -> Self {
         Self { growth, limit: None, beyond_range: false, opens: false, hardly_fast: false }
     }
 }
@@ -79,7 +82,7 @@ pub trait SampledKind {
     ///
     /// # Errors
     /// Why it is not valid.
-    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<Self::Sampled, String>;
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<Self::Sampled, RefusedNumbers>;
 
     /// The growth of its small motions, by averaging under dither.
     fn averaged_growth(&self, sampled: &Self::Sampled) -> AveragedGrowth;
@@ -89,13 +92,17 @@ pub trait SampledKind {
     ///
     /// # Errors
     /// Why that is unknown.
-    fn threshold(&self, sampled: &Self::Sampled, exactly: bool) -> Result<f64, String>;
+    fn threshold(&self, sampled: &Self::Sampled, exactly: bool) -> Result<f64, NoSampledThreshold>;
 
     /// Whether it vibrates, by its exact motion.
     ///
     /// # Errors
     /// Why that is unknown.
-    fn vibrates(&self, sampled: &Self::Sampled, start: ProbabilityStart) -> Result<bool, String>;
+    fn vibrates(
+        &self,
+        sampled: &Self::Sampled,
+        start: ProbabilityStart,
+    ) -> Result<bool, NoSampledVerdict>;
 
     /// An empty answer in the units of the study.
     fn fields(&self) -> Fields;
@@ -107,21 +114,18 @@ pub trait SampledKind {
     fn unit_of_rates(&self) -> (&'static str, f64);
 
     /// Adds a growth rate to an answer.
-    fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, String>) {
-        fields.rate(name, rate);
+    fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, impl Display>) {
+        fields.known_rate(name, rate);
     }
 }
 
-/// Why a study without dither has no threshold.
-const NO_DITHER: &str = "the study has no dither";
-
 /// Growth of small motions of one mass in the limit R → ∞; its verdict is that of the criterion.
-fn limit_growth(mass: &OneMass) -> Result<JudgedGrowth, String> {
-    let found = criterion(mass.belt(), Averaging::Limit).map_err(|why| why.to_string())?;
+fn limit_growth(mass: &OneMass) -> Result<JudgedGrowth, NoSampledGrowth> {
+    let found = criterion(mass.belt(), Averaging::Limit)?;
     let vibrates = match found.verdict {
         AveragedVerdict::Unstable => Ok(true),
         AveragedVerdict::Stable => Ok(false),
-        AveragedVerdict::Undecided { .. } => Err(Status::WithinError.about().to_owned()),
+        AveragedVerdict::Undecided { .. } => Err(Status::WithinError),
     };
     Ok(JudgedGrowth { rate: mass.rate() * of_criterion(found.value), vibrates })
 }
@@ -140,8 +144,8 @@ impl SampledKind for SystemStudy {
         Ok(())
     }
 
-    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<System, String> {
-        self.model().at(numbers).map_err(|why| why.to_string())
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<System, RefusedNumbers> {
+        self.model().at(numbers).map_err(RefusedNumbers::by_study)
     }
 
     fn averaged_growth(&self, system: &System) -> AveragedGrowth {
@@ -153,7 +157,7 @@ impl SampledKind for SystemStudy {
                 found.doubts.contains(&Status::BeyondRange),
                 found.doubts.contains(&Status::Opens),
             ),
-            Err(status) => (Err(status.about().to_owned()), false, false),
+            Err(status) => (Err(status.into()), false, false),
         };
         AveragedGrowth {
             growth,
@@ -164,23 +168,23 @@ impl SampledKind for SystemStudy {
         }
     }
 
-    fn threshold(&self, system: &System, exactly: bool) -> Result<f64, String> {
+    fn threshold(&self, system: &System, exactly: bool) -> Result<f64, NoSampledThreshold> {
         let acts = |input: &Input| !input.profile.waves().is_empty();
-        let input = system.inputs.iter().position(acts).ok_or(NO_DITHER)?;
+        let input = system.inputs.iter().position(acts).ok_or(NoSampledThreshold::NoDither)?;
         if exactly {
-            return least_quiet(system, input).map_err(|why| why.about().to_owned());
+            return Ok(least_quiet(system, input)?);
         }
-        let quiet = averaged_quiet(system, input, (0.0, f64::INFINITY));
-        Ok(quiet.map_err(|why| why.to_string())?.least_from(0.0).unwrap_or(f64::INFINITY))
+        let quiet = averaged_quiet(system, input, (0.0, f64::INFINITY))?;
+        Ok(quiet.least_from(0.0).unwrap_or(f64::INFINITY))
     }
 
-    fn vibrates(&self, system: &System, start: ProbabilityStart) -> Result<bool, String> {
+    fn vibrates(&self, system: &System, start: ProbabilityStart) -> Result<bool, NoSampledVerdict> {
         let protocol = match start {
             ProbabilityStart::Averaged | ProbabilityStart::Local => {
                 return match local_verdict(system)? {
                     "stable" => Ok(false),
                     "unstable" => Ok(true),
-                    verdict => Err(format!("the base response is {verdict}")),
+                    verdict => Err(NoSampledVerdict::Local(verdict)),
                 };
             }
             ProbabilityStart::Rest => Protocol::Rest,
@@ -192,10 +196,9 @@ impl SampledKind for SystemStudy {
             Err(_) if start == ProbabilityStart::Squeal && is_quiet_without_dither(system) => {
                 return Ok(false);
             }
-            Err(why) => return Err(said(&why)),
+            Err(why) => return Err(RefusedStart(why).into()),
         };
-        let end = end_of_run(system, &self.observe(), &state).map_err(|why| why.to_string())?;
-        Ok(!end.attractor.quiet)
+        Ok(!end_of_run(system, &self.observe(), &state)?.attractor.quiet)
     }
 
     fn fields(&self) -> Fields {
@@ -218,18 +221,6 @@ fn is_quiet_without_dither(system: &System) -> bool {
     local_verdict(&system.undithered()).is_ok_and(|verdict| verdict == "stable")
 }
 
-/// Why a start does not exist.
-fn said(why: &Failure) -> String {
-    match why {
-        Failure::Wrong(complaints) => complaints
-            .iter()
-            .map(|complaint| complaint.allowed.clone())
-            .collect::<Vec<_>>()
-            .join("; "),
-        Failure::Failed { why, .. } => why.clone(),
-    }
-}
-
 impl SampledKind for DiscStudy {
     type Sampled = Disc;
 
@@ -243,8 +234,8 @@ impl SampledKind for DiscStudy {
         }
     }
 
-    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<Disc, String> {
-        let setup = self.setup_at(numbers).map_err(|why| why.to_string())?;
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<Disc, RefusedNumbers> {
+        let setup = self.setup_at(numbers).map_err(RefusedNumbers::by_study)?;
         Ok(setup.disc().clone())
     }
 
@@ -254,16 +245,15 @@ impl SampledKind for DiscStudy {
         let one = scales.map_or(1.0, |scales| scales.angular_frequency());
         let growth = growth_of(disc, self.parts()).map(JudgedGrowth::of);
         let growth = growth.map(|growth| JudgedGrowth { rate: one * growth.rate, ..growth });
-        AveragedGrowth::of(growth.map_err(|status| status.about().to_owned()))
+        AveragedGrowth::of(growth.map_err(NoSampledGrowth::from))
     }
 
-    fn threshold(&self, _: &Disc, _: bool) -> Result<f64, String> {
-        Err("thresholds are those of belts and systems: `thresholds` has those of a disc"
-            .to_owned())
+    fn threshold(&self, _: &Disc, _: bool) -> Result<f64, NoSampledThreshold> {
+        Err(NoSampledThreshold::OfDisc)
     }
 
-    fn vibrates(&self, disc: &Disc, _: ProbabilityStart) -> Result<bool, String> {
-        self.averaged_growth(disc).growth?.vibrates
+    fn vibrates(&self, disc: &Disc, _: ProbabilityStart) -> Result<bool, NoSampledVerdict> {
+        Ok(verdict(&self.averaged_growth(disc).growth)?)
     }
 
     fn fields(&self) -> Fields {
@@ -274,7 +264,7 @@ impl SampledKind for DiscStudy {
         more_digits(force)
     }
 
-    fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, String>) {
+    fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, impl Display>) {
         match rate {
             Ok(rate) => fields.measured(name, self.unit_of_rates().0, rate),
             Err(why) => fields.unknown(name, why),

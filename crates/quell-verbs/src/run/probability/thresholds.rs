@@ -3,6 +3,8 @@
 use quell_design::probability::quantile;
 use quell_numerics::order::ascending;
 
+use super::unknown::{NoSampledThreshold, NoThresholdQuantile};
+
 /// Samples of which the threshold is computed by averaging, at most.
 const MOST: usize = 10_000;
 
@@ -15,7 +17,7 @@ pub struct SampledThresholds {
     /// Samples whose threshold is unknown.
     pub unknown: usize,
     /// Why the first of them is.
-    pub why: Option<String>,
+    pub why: Option<NoSampledThreshold>,
 }
 
 impl SampledThresholds {
@@ -24,7 +26,9 @@ impl SampledThresholds {
         number < MOST
     }
 
-    pub(super) fn of<'a>(thresholds: impl Iterator<Item = &'a Result<f64, String>>) -> Self {
+    pub(super) fn of<'a>(
+        thresholds: impl Iterator<Item = &'a Result<f64, NoSampledThreshold>>,
+    ) -> Self {
         let mut found = Self { amplitudes: Vec::new(), unknown: 0, why: None };
         for threshold in thresholds {
             match threshold {
@@ -43,14 +47,14 @@ impl SampledThresholds {
     ///
     /// # Errors
     /// Why no amplitude is known to be.
-    pub(crate) fn quantile(&self, share: f64) -> Result<f64, String> {
-        let unknown = || self.why.clone().unwrap_or_else(|| "no threshold is known".to_owned());
+    pub(crate) fn quantile(&self, share: f64) -> Result<f64, NoThresholdQuantile> {
+        let unknown = || NoThresholdQuantile::NoneKnown(self.why.clone());
         let found = quantile(&self.amplitudes, share).ok_or_else(unknown)?;
         if found.is_finite() {
             return Ok(found);
         }
         let never = self.amplitudes.iter().filter(|amplitude| amplitude.is_infinite()).count();
         let all = self.amplitudes.len();
-        Err(format!("no amplitude is quiet in {never} of {all} samples"))
+        Err(NoThresholdQuantile::NeverQuiet { never, all })
     }
 }

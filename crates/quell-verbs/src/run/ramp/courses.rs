@@ -9,7 +9,7 @@ use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget};
 use quell_model::units::Quantity;
 
-use super::{Ramp, RampCourse, RampThreshold, RampedMotion};
+use super::{NoRampThresholds, Ramp, RampCourse, RampThreshold, RampedMotion};
 use crate::complaint::Failure;
 use crate::run::simulate::{self, MotionRequest};
 use crate::run::system::attractor::rate_of;
@@ -108,17 +108,19 @@ fn steady_at(study: &SystemStudy, time: f64) -> Result<SystemStudy, Failure> {
 }
 
 /// Thresholds of the steady system over the values of the ramp: under dither of its base response, otherwise of steady sliding.
-fn thresholds(study: &SystemStudy, ramped: &RampCourse) -> Result<Vec<RampThreshold>, String> {
+fn thresholds(
+    study: &SystemStudy,
+    ramped: &RampCourse,
+) -> Result<Vec<RampThreshold>, NoRampThresholds> {
     let window = ramped.searched()?;
-    let in_words = |why: Failure| why.to_string();
-    let steady = steady_at(study, ramped.time_of_largest()).map_err(in_words)?;
+    let steady = steady_at(study, ramped.time_of_largest())?;
     let parameter = ramped.path.clone();
     let request = ThresholdsRequest { parameter, window, ..Default::default() };
-    if !by_eigenvalues(&steady, &request).map_err(in_words)? {
-        let found = thresholds::run(&steady, &request).map_err(in_words)?;
-        let local = found.local.map_err(|why| why.to_string())?;
+    if !by_eigenvalues(&steady, &request)? {
+        let found = thresholds::run(&steady, &request)?;
+        let local = found.local?;
         if local.ending != BranchEnding::Covered && local.thresholds.is_empty() {
-            return Err(super::NOT_COVERED.to_owned());
+            return Err(NoRampThresholds::NotCovered);
         }
         let each = local.thresholds.iter().map(|threshold| RampThreshold {
             value: threshold.value,
@@ -127,7 +129,7 @@ fn thresholds(study: &SystemStudy, ramped: &RampCourse) -> Result<Vec<RampThresh
         });
         return Ok(each.collect());
     }
-    let found = tracked::run(&steady, &request.tracked()).map_err(in_words)?;
+    let found = tracked::run(&steady, &request.tracked())?;
     let changes =
         found.tracked.thresholds.iter().filter(|found| found.verdicts[0] != found.verdicts[1]);
     let each = changes.map(|found| RampThreshold {

@@ -10,7 +10,7 @@ mod courses;
 
 use std::fmt::Write as _;
 
-use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::{NoOrbit, OrbitVerdict};
 use quell_model::profile::Knots;
 use quell_model::units::Quantity;
 use quell_numerics::order::ascending_by;
@@ -18,9 +18,10 @@ use quell_numerics::roots::{Closeness, find_root};
 use serde_json::Value as Json;
 
 use super::manoeuvre::{Manoeuvre, SampledMotion, VibrationInterval, vibration_levels};
-use crate::complaint::{Complaint, Fault, Origin};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::fields::Fields;
+use crate::reasons::reasons;
 use crate::run::system::in_units;
 use crate::study::SystemStudy;
 
@@ -35,8 +36,20 @@ const TRANSIENT: f64 = 2.0;
 /// Switches that a sentence names one by one.
 const MOST_SWITCHES: usize = 6;
 
-/// Why no threshold is known on a branch that ends.
-const NOT_COVERED: &str = "the base response does not exist over the whole ramp";
+reasons! {
+    /// Why the thresholds over a ramp are unknown.
+    pub enum NoRampThresholds {
+        /// The steady study was refused, or its thresholds were.
+        Failed(Failure),
+        /// The base response was not found.
+        NoOrbit(NoOrbit),
+        ;
+        /// Every value of the ramp is zero or negative.
+        NoPositiveValues => "the ramp has no positive values",
+        /// The base response ends.
+        NotCovered => "the base response does not exist over the whole ramp",
+    }
+}
 
 /// What a ramp changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,11 +134,11 @@ impl RampCourse {
     }
 
     /// The values over which thresholds are searched.
-    fn searched(&self) -> Result<(f64, f64), String> {
+    fn searched(&self) -> Result<(f64, f64), NoRampThresholds> {
         let (least, largest) = self.range();
         let from = least.max(LEAST * largest);
         if from >= largest {
-            return Err("the ramp has no positive values".to_owned());
+            return Err(NoRampThresholds::NoPositiveValues);
         }
         Ok((from, largest))
     }
@@ -203,7 +216,7 @@ pub struct Ramp {
     /// When it begins and ceases to vibrate.
     pub switches: Vec<RampSwitch>,
     /// Exact thresholds at constant values, ascending, or why they are unknown.
-    pub thresholds: Result<Vec<RampThreshold>, String>,
+    pub thresholds: Result<Vec<RampThreshold>, NoRampThresholds>,
     /// Warnings about the run.
     pub warnings: Vec<String>,
 }
@@ -218,7 +231,7 @@ impl Ramp {
         ramped: RampCourse,
         (manoeuvre, until): (Option<Manoeuvre>, f64),
         motion: RampedMotion,
-        thresholds: Result<Vec<RampThreshold>, String>,
+        thresholds: Result<Vec<RampThreshold>, NoRampThresholds>,
         warnings: Vec<String>,
     ) -> Self {
         let transient = TRANSIENT * motion.period;
@@ -329,8 +342,8 @@ impl Ramp {
                 .number("time", Quantity::Time, switch.time)
                 .number("value", quantity, switch.value)
                 .plain("becomes", if switch.to_quiet { "quiet" } else { "vibrating" });
-            let threshold = self.threshold_of(switch).map_err(str::to_owned);
-            let time = threshold.as_ref().map(|found| found.time).map_err(Clone::clone);
+            let threshold = self.threshold_of(switch);
+            let time = threshold.map(|found| found.time);
             inner.known("threshold", quantity, threshold.map(|found| found.value)).known(
                 "threshold_time",
                 Quantity::Time,
@@ -352,7 +365,7 @@ impl Ramp {
                 fields.list("thresholds", each.collect::<Vec<_>>());
             }
             Err(why) => {
-                fields.unknown("thresholds", why.as_str());
+                fields.unknown("thresholds", why);
             }
         }
         if let Some(found) = &self.manoeuvre {

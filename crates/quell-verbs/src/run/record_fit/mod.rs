@@ -205,7 +205,7 @@ fn search(
     if minima.is_empty() {
         let why = model.why.take().unwrap_or_else(|| "the study has no readings".to_owned());
         let why = format!("no start of the search has a motion: {why}");
-        return Err(Failure::Failed { key: "fit --record".to_owned(), why });
+        return Err(Failure::Failed { key: "fit --record".to_owned(), why: why.into() });
     }
     Ok((minima, count))
 }

@@ -129,6 +129,6 @@ fn started(study: &Study, path: &str, given: Option<f64>) -> Result<f64, Vec<Com
 fn for_option(complaint: Complaint) -> Complaint {
     let allowed = format!("such that {} is {}", complaint.key, complaint.allowed);
     let allowed =
-        if complaint.fault == Fault::Unknown { complaint.allowed.clone() } else { allowed };
+        if complaint.fault == Fault::Unknown { complaint.allowed.clone() } else { allowed.into() };
     Complaint { origin: Origin::Argument("--free"), allowed, ..complaint }
 }

@@ -5,7 +5,7 @@ use quell_dynamics::response::{Effect, PEAK_FLOOR, SettledRecord, SystemEnding};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{MeasuredResponse, uncertain, undefined};
+use super::{MeasuredResponse, NoLevel, NoResidualVibration, uncertain};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::effect_words::level_of;
@@ -24,10 +24,9 @@ impl MeasuredResponse {
             Effect::Unknown(why) => fields.plain("effect", "unknown").why("effect", uncertain(why)),
             effect => fields.plain("effect", effect.name()),
         };
-        let residual_vibration = response.residual_vibration.map_err(undefined);
-        let level = residual_vibration.clone().and_then(|ratio| {
-            level_of(ratio).ok_or_else(|| "E is zero, which has no level in decibels".to_owned())
-        });
+        let residual_vibration = response.residual_vibration.map_err(NoResidualVibration);
+        let level = residual_vibration.map_err(NoLevel::from);
+        let level = level.and_then(|ratio| level_of(ratio).ok_or(NoLevel::Zero));
         let (with, without) = (&response.dithered, &response.undithered);
         put_record(&mut fields, "", with);
         fields.known("residual_vibration", Quantity::Ratio, residual_vibration).known(

@@ -1,6 +1,7 @@
 //! The level of a steady response in the frequency band of a study.
 
 use std::f64::consts::TAU;
+use std::fmt;
 
 use quell_dynamics::response::SettledRecord;
 use quell_model::units::Quantity;
@@ -9,7 +10,7 @@ use super::MeasuredResponse;
 use crate::fields::Fields;
 use crate::run::effect_words::MOST_DECIBELS;
 use crate::run::system::frequency_in_words;
-use crate::study::SystemStudy;
+use crate::study::{SystemStudy, UnitSystem};
 
 impl MeasuredResponse {
     /// The levels in the frequency band of the study.
@@ -21,16 +22,12 @@ impl MeasuredResponse {
         // The window spreads a tone over four lines of the unpadded record.
         let resolved = 4.0 * TAU / self.plan.length;
         if high - low < resolved {
-            let resolved = frequency_in_words(study.units(), resolved);
-            let why = format!(
-                "the band is narrower than the resolution of the record, {resolved}; raise --record"
-            );
+            let why = NoBandLevel::TooNarrow { resolved, units: study.units() };
             return Some(InBand { band, values: Err(why) });
         }
         let values = both.ok_or_else(|| {
             let last = self.response.dithered.spectrum.frequencies().last().unwrap_or_default();
-            let last = frequency_in_words(study.units(), last);
-            format!("the record has no frequencies above {last}")
+            NoBandLevel::BeyondRecord { last, units: study.units() }
         });
         Some(InBand { band, values })
     }
@@ -38,20 +35,18 @@ impl MeasuredResponse {
     /// Adds the levels in the band; null without a band.
     pub(super) fn put_band(&self, study: &SystemStudy, fields: &mut Fields) {
         let band = self.in_band(study);
-        let band =
-            band.as_ref().ok_or_else(|| "the study does not define a frequency band".to_owned());
-        let end = |place: usize| band.clone().map(|band| band.band[place]);
+        let band = band.as_ref().ok_or(NoBandLevel::NoBand);
+        let end = |place: usize| band.map(|band| band.band[place]);
         fields.known("band_from", Quantity::FrequencyRatio, end(0)).known(
             "band_to",
             Quantity::FrequencyRatio,
             end(1),
         );
-        let values = band.and_then(|band| band.values.clone());
+        let values = band.and_then(|band| band.values);
         let names = [("displacement", Quantity::Displacement), ("velocity", Quantity::Velocity)];
         for (place, (name, quantity)) in names.into_iter().enumerate() {
-            let both = values.clone().map(|(with, without)| (with[place], without[place]));
-            let (with, without) =
-                (both.clone().map(|pair| pair.0), both.clone().map(|pair| pair.1));
+            let both = values.map(|(with, without)| (with[place], without[place]));
+            let (with, without) = (both.map(|pair| pair.0), both.map(|pair| pair.1));
             let level = both.and_then(|(with, without)| level(with, without));
             fields
                 .known(&format!("band_{name}_rms"), quantity, with)
@@ -91,8 +86,56 @@ pub struct InBand {
     /// Its ends, angular frequencies.
     pub band: [f64; 2],
     /// Root mean square of displacement and velocity, with and without dither; or why they are undefined.
-    pub values: Result<([f64; 2], [f64; 2]), String>,
+    pub values: Result<([f64; 2], [f64; 2]), NoBandLevel>,
 }
+
+/// Why the level in a frequency band is undefined.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoBandLevel {
+    /// The study has no band.
+    NoBand,
+    /// The record does not resolve the band.
+    TooNarrow {
+        /// The angular frequency that it resolves.
+        resolved: f64,
+        /// The units of the study.
+        units: UnitSystem,
+    },
+    /// The band begins beyond the spectrum of the record.
+    BeyondRecord {
+        /// The largest angular frequency of the spectrum.
+        last: f64,
+        /// The units of the study.
+        units: UnitSystem,
+    },
+    /// Without dither nothing vibrates in the band.
+    QuietWithout,
+    /// With dither nothing vibrates in the band.
+    QuietWith,
+}
+
+impl fmt::Display for NoBandLevel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoBand => f.write_str("the study does not define a frequency band"),
+            Self::TooNarrow { resolved, units } => {
+                let resolved = frequency_in_words(*units, *resolved);
+                write!(
+                    f,
+                    "the band is narrower than the resolution of the record, {resolved}; raise --record"
+                )
+            }
+            Self::BeyondRecord { last, units } => {
+                let last = frequency_in_words(*units, *last);
+                write!(f, "the record has no frequencies above {last}")
+            }
+            Self::QuietWithout => f.write_str("nothing vibrates in the band without dither"),
+            Self::QuietWith => f.write_str("nothing vibrates in the band with dither"),
+        }
+    }
+}
+
+impl std::error::Error for NoBandLevel {}
 
 /// A change of level in a sentence.
 fn decibels(size: f64) -> String {
@@ -104,12 +147,12 @@ fn decibels(size: f64) -> String {
 }
 
 /// 20 lg of two root mean squares, in dB.
-fn level(with: f64, without: f64) -> Result<f64, String> {
+fn level(with: f64, without: f64) -> Result<f64, NoBandLevel> {
     if without == 0.0 {
-        return Err("nothing vibrates in the band without dither".to_owned());
+        return Err(NoBandLevel::QuietWithout);
     }
     if with == 0.0 {
-        return Err("nothing vibrates in the band with dither".to_owned());
+        return Err(NoBandLevel::QuietWith);
     }
     Ok(20.0 * (with / without).log10())
 }

@@ -4,6 +4,7 @@ mod answer;
 mod band;
 
 use std::f64::consts::TAU;
+use std::fmt;
 
 use quell_dynamics::attractor::MotionKind;
 use quell_dynamics::motion::InputCost;
@@ -21,6 +22,7 @@ use super::system::periods::slowest_period;
 use super::system::start::{duration, start_in_words, start_of};
 use super::system::{failed, frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::reasons::reasons;
 use crate::study::{Solver, SystemStudy};
 use crate::words::{capital, digits, listed};
 
@@ -174,28 +176,55 @@ const FEW_PERIODS: f64 = 4.0;
 /// Relative change of the mean friction that is rounding.
 const UNCHANGED: f64 = 1e-9;
 
+reasons! {
+    /// Why a response has no friction of steady sliding to compare with.
+    pub enum NoFrictionLoss {
+        ;
+        /// There is no friction in steady sliding.
+        NoFriction => "there is no friction in steady sliding to compare with",
+        /// There is no steady sliding.
+        NoSliding => "the system has no steady sliding to compare with",
+    }
+}
+
 /// Why E is undefined.
-pub(crate) fn undefined(why: Undefined) -> String {
-    match why {
-        Undefined::UnditheredUnknown => {
-            "the vibration without dither still changes within the record, so there is no steady vibration to compare with: \
-             settle for longer"
-                .to_owned()
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoResidualVibration(pub Undefined);
+
+impl fmt::Display for NoResidualVibration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Undefined::UnditheredUnknown => f.write_str(
+                "the vibration without dither still changes within the record, so there is no steady vibration to compare with: \
+                 settle for longer",
+            ),
+            why @ (Undefined::UnditheredUnstable
+            | Undefined::UnditheredDrifts
+            | Undefined::UnditheredStill) => why.fmt(f),
+            Undefined::UnditheredSettles | Undefined::UnditheredAtRest => f.write_str(
+                "without dither the motion settles without vibration from this start, so there is no vibration to compare with",
+            ),
         }
-        Undefined::UnditheredUnstable
-        | Undefined::UnditheredDrifts
-        | Undefined::UnditheredStill => why.to_string(),
-        Undefined::UnditheredSettles | Undefined::UnditheredAtRest => {
-            "without dither the motion settles without vibration from this start, so there is no vibration to compare with"
-                .to_owned()
-        }
+    }
+}
+
+impl std::error::Error for NoResidualVibration {}
+
+reasons! {
+    /// Why E has no level.
+    pub enum NoLevel {
+        /// It is undefined.
+        Undefined(NoResidualVibration),
+        ;
+        /// It is zero.
+        Zero => "E is zero, which has no level in decibels",
     }
 }
 
 /// Why an effect is unknown.
 fn uncertain(why: Uncertain) -> String {
     match why {
-        Uncertain::Undithered(why) => undefined(why),
+        Uncertain::Undithered(why) => NoResidualVibration(why).to_string(),
         why => why.to_string(),
     }
 }
@@ -214,7 +243,7 @@ impl MeasuredResponse {
                 Err(Undefined::UnditheredSettles) => {
                     format!("{from}, the motion settles without vibration.")
                 }
-                Err(why) => format!("{from}, {}.", undefined(why)),
+                Err(why) => format!("{from}, {}.", NoResidualVibration(why)),
             };
         }
         let band = frequency_in_words(units, response.band_end);
@@ -305,17 +334,17 @@ impl MeasuredResponse {
     }
 
     /// Relative loss of the mean friction of a contact against steady sliding without dither; negative for a gain.
-    fn friction_loss(&self, contact: usize) -> Result<f64, String> {
+    fn friction_loss(&self, contact: usize) -> Result<f64, NoFrictionLoss> {
         let steady = self.steady_friction(contact)?;
         if steady == 0.0 {
-            return Err("there is no friction in steady sliding to compare with".to_owned());
+            return Err(NoFrictionLoss::NoFriction);
         }
         Ok(1.0 - self.response.dithered.contacts[contact].friction / steady)
     }
 
-    fn steady_friction(&self, contact: usize) -> Result<f64, String> {
+    fn steady_friction(&self, contact: usize) -> Result<f64, NoFrictionLoss> {
         let steady = self.response.steady_friction.as_ref().map(|forces| forces[contact]);
-        steady.ok_or_else(|| "the system has no steady sliding to compare with".to_owned())
+        steady.ok_or(NoFrictionLoss::NoSliding)
     }
 
     /// Warnings about the result.

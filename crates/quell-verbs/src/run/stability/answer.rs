@@ -1,5 +1,7 @@
 //! The answer of `stability` as JSON.
 
+use std::fmt::Display;
+
 use quell_linear::averaging::{CriticalInput, DitheredContact};
 use quell_linear::growth::Growth;
 use quell_model::units::Quantity;
@@ -21,11 +23,11 @@ impl SlidingStability {
             .plain("sentence", self.sentence(study))
             .plain("verdict", self.verdict().name())
             .plain("protocol", self.protocol())
-            .rate("growth_rate", Ok(rate))
-            .rate("growth_rate_error", Ok(error))
+            .rate("growth_rate", rate)
+            .rate("growth_rate_error", error)
             .number("frequency", Quantity::FrequencyRatio, frequency);
         if units != UnitSystem::None {
-            fields.decibels("growth_rate_db_per_s", Ok(DECIBELS * rate));
+            fields.decibels("growth_rate_db_per_s", DECIBELS * rate);
         }
         let values = self.spectrum.motions.iter().map(|motion| motion.eigenvalue);
         let eigenvalues: Vec<Vec<f64>> = values.map(|value| vec![value.re, value.im]).collect();
@@ -51,15 +53,15 @@ impl SlidingStability {
         };
         match undithered {
             Err(why) => {
-                fields.unknown("undithered", why.clone());
+                fields.unknown("undithered", why);
             }
             Ok(undithered) => {
                 let Growth { rate, error, frequency } = undithered.growth;
                 let mut inner = Fields::in_units(units);
                 inner
                     .plain("verdict", undithered.growth.verdict().name())
-                    .rate("growth_rate", Ok(rate))
-                    .rate("growth_rate_error", Ok(error))
+                    .rate("growth_rate", rate)
+                    .rate("growth_rate_error", error)
                     .number("frequency", Quantity::FrequencyRatio, frequency);
                 fields.nested("undithered", inner);
             }
@@ -72,13 +74,13 @@ impl SlidingStability {
 pub(crate) fn put_critical(
     fields: &mut Fields,
     units: UnitSystem,
-    critical: &Result<Vec<CriticalInput>, String>,
-    error: impl Fn(usize, &CriticalInput) -> Result<f64, String>,
+    critical: &Result<Vec<CriticalInput>, impl Display>,
+    error: impl Fn(usize, &CriticalInput) -> Result<f64, &'static str>,
 ) {
     let critical = match critical {
         Ok(critical) => critical,
         Err(why) => {
-            fields.unknown("critical_amplitudes", why.clone());
+            fields.unknown("critical_amplitudes", why);
             return;
         }
     };
@@ -104,9 +106,8 @@ pub(crate) fn put_contact(name: &str, units: UnitSystem, found: &SlidingContact)
         Quantity::Force,
         found.normal_load,
     );
-    let no_dither = || "the study has no dither".to_owned();
-    let dithered = found.dithered.ok_or_else(no_dither);
-    let of = |pick: fn(&DitheredContact) -> f64| dithered.as_ref().map(pick).map_err(Clone::clone);
+    let dithered = found.dithered.ok_or("the study has no dither");
+    let of = |pick: fn(&DitheredContact) -> f64| dithered.as_ref().map(pick);
     fields
         .known("slip_amplitude", Quantity::Velocity, of(|found| found.slip_amplitude))
         .known("load_amplitude", Quantity::Force, of(|found| found.load_amplitude))
@@ -115,7 +116,7 @@ pub(crate) fn put_contact(name: &str, units: UnitSystem, found: &SlidingContact)
         .known("slope_by_velocity", Quantity::LoadDamping, of(|found| found.slope_by_velocity));
     match &dithered {
         Ok(found) => fields.plain("slope_is_one_sided", found.one_sided),
-        Err(why) => fields.unknown("slope_is_one_sided", why.clone()),
+        Err(why) => fields.unknown("slope_is_one_sided", why),
     };
     fields
 }

@@ -8,10 +8,11 @@ mod answer;
 mod one_mass;
 
 pub(crate) use answer::{put_contact, put_critical};
-pub use one_mass::{LOOKED_AT, LimitStability, OneMassStability};
+pub use one_mass::{LOOKED_AT, LimitStability, NoStableAmplitude, OneMassStability};
 
+use quell_dynamics::orbit::NoSlidingVerdict;
 use quell_linear::averaging::{
-    Becomes, CriticalInput, CrossingKind, DitheredContact, DitheredSystem,
+    AveragingError, Becomes, CriticalInput, CrossingKind, DitheredContact, DitheredSystem,
 };
 use quell_linear::growth::{Growth, Verdict};
 use quell_linear::linearised::Linearised;
@@ -73,9 +74,9 @@ pub struct SlidingContact {
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnderDither {
     /// Every small motion without it, or why none exists.
-    pub undithered: Result<MotionSpectrum, String>,
+    pub undithered: Result<MotionSpectrum, NoSlidingVerdict>,
     /// Amplitudes of the first dither at which the verdict changes, or why they are unknown.
-    pub critical: Result<Vec<CriticalInput>, String>,
+    pub critical: Result<Vec<CriticalInput>, AveragingError>,
 }
 
 /// Stability of steady sliding.
@@ -113,7 +114,7 @@ pub fn run(study: &SystemStudy) -> Result<SlidingStability, Failure> {
     let prepared = DitheredSystem::new(system).map_err(not_averaged)?;
     let average = prepared.average().map_err(not_averaged)?;
     let spectrum = average.spectrum().map_err(|why| failed("stability", why))?;
-    let critical = prepared.critical_amplitudes(0).map_err(|why| why.to_string());
+    let critical = prepared.critical_amplitudes(0);
     let contacts: Vec<SlidingContact> = average
         .contacts
         .iter()
@@ -135,10 +136,12 @@ pub fn run(study: &SystemStudy) -> Result<SlidingStability, Failure> {
 
 /// Every small motion about steady sliding without dither, with the contacts there and the slope of friction at the first; or why no
 /// steady sliding exists.
-fn undithered(system: &System) -> Result<(MotionSpectrum, Vec<SlidingContact>, f64), String> {
-    let linear = Linearised::new(system).map_err(|why| why.to_string())?;
+fn undithered(
+    system: &System,
+) -> Result<(MotionSpectrum, Vec<SlidingContact>, f64), NoSlidingVerdict> {
+    let linear = Linearised::new(system).map_err(NoSlidingVerdict::NoSliding)?;
     let friction = linear.friction();
-    let found = spectrum(&linear, &friction).map_err(|why| why.to_string())?;
+    let found = spectrum(&linear, &friction).map_err(NoSlidingVerdict::Eigenvalues)?;
     let contacts = linear.contacts().iter().zip(&friction).map(|(contact, friction)| {
         let normal_load = contact.steady.normal_load;
         SlidingContact { friction: friction.force, normal_load, dithered: None }

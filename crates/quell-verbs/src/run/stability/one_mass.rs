@@ -1,6 +1,8 @@
 //! What `stability` knows of one mass alone: the criterion of the dissertation, the surface velocities at which sliding is unstable, and the
 //! limit of high dither frequency.
 
+use std::fmt;
+
 use quell_linear::averaging::{
     AveragedVerdict, Averaging, AveragingError, Criterion, CriticalAmplitude, EverywhereStable,
     FastMotion, FastWave, NeverStable, UnstableBand, criterion, critical_amplitudes,
@@ -16,13 +18,70 @@ use crate::range;
 use crate::run::system::velocity_in_words;
 use crate::study::SystemStudy;
 
+/// Why no amplitude is known from which every surface velocity is stable.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoStableAmplitude {
+    /// The average has no value.
+    NoAverage(AveragingError),
+    /// Some surface velocity is unstable at every amplitude.
+    Never(NeverStable),
+    /// The study has no dither.
+    NoDither,
+    /// It has several.
+    SeveralDithers,
+    /// The dither is normal.
+    OfNormal,
+    /// The waveform with this name has corners at every maximum of its fast velocity.
+    Cornered(&'static str),
+    /// Nothing grows or decays.
+    Neutral,
+}
+
+impl From<AveragingError> for NoStableAmplitude {
+    fn from(why: AveragingError) -> Self {
+        Self::NoAverage(why)
+    }
+}
+
+impl fmt::Display for NoStableAmplitude {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NoAverage(why) => return why.fmt(f),
+            Self::Cornered(name) => {
+                return write!(
+                    f,
+                    "it is known for sine, triangle, square and noise; \"{name}\" has corners at every maximum of its fast velocity"
+                );
+            }
+            Self::Never(NeverStable::NoDamping) => {
+                "without damping, a friction law that keeps falling leaves fast surfaces unstable at any amplitude"
+            }
+            Self::Never(NeverStable::InnerRegion) => {
+                "slow surfaces stay unstable at any amplitude: the friction law falls too steeply"
+            }
+            Self::Never(NeverStable::OffScale) => "no such amplitude ratio exists up to 10⁶ v_m",
+            Self::Never(NeverStable::NoEdge) => {
+                "without dither, sliding is unstable at every velocity examined (up to 365 v_m), so no amplitude was tried"
+            }
+            Self::NoDither => "the study has no dither",
+            Self::SeveralDithers => {
+                "it is defined for a single dither, and this study has several"
+            }
+            Self::OfNormal => "of normal dither it is known to first order alone, in the limit",
+            Self::Neutral => "without damping and with a flat friction law nothing grows or decays",
+        })
+    }
+}
+
+impl std::error::Error for NoStableAmplitude {}
+
 /// What is known of one mass alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneMassStability {
     /// 2ζ + Fμ̄′(v₀) (2.26), twice the effective damping ratio.
     pub criterion: f64,
     /// Amplitude ratio from which every surface velocity is stable, or why none exists.
-    pub everywhere_stable: Result<f64, String>,
+    pub everywhere_stable: Result<f64, NoStableAmplitude>,
     /// Surface velocities at which the study's own dither leaves steady sliding unstable.
     pub unstable_bands: Result<Vec<UnstableBand>, AveragingError>,
     /// The limit of high frequency, R → ∞: the dissertation's averaging. `None` without dither, which has no such limit.
@@ -40,7 +99,7 @@ pub struct LimitStability {
     /// Amplitudes of the first dither at which stability changes.
     pub critical_amplitudes: Result<Vec<CriticalAmplitude>, AveragingError>,
     /// Amplitude ratio from which every surface velocity is stable, or why none exists.
-    pub everywhere_stable: Result<f64, String>,
+    pub everywhere_stable: Result<f64, NoStableAmplitude>,
     /// Surface velocities at which the study's own dither leaves steady sliding unstable.
     pub unstable_bands: Result<Vec<UnstableBand>, AveragingError>,
 }
@@ -113,7 +172,7 @@ impl OneMassStability {
         self.amplitude * first.map_or(0.0, |dither| dither.frequency_ratio)
     }
 
-    fn put_everywhere_stable(&self, ratio: &Result<f64, String>, fields: &mut Fields) {
+    fn put_everywhere_stable(&self, ratio: &Result<f64, NoStableAmplitude>, fields: &mut Fields) {
         let force = ratio.clone().map(|ratio| self.amplitude_of_ratio() * ratio);
         fields.known("everywhere_stable_amplitude", Quantity::Force, force).known(
             "everywhere_stable_amplitude_ratio",
@@ -160,19 +219,20 @@ impl LimitStability {
     fn fields(&self, study: &SystemStudy, of: &OneMassStability) -> Fields {
         let mut fields = Fields::in_units(study.units());
         fields.plain("verdict", self.verdict());
-        let value = |field: fn(&Criterion) -> f64| {
-            self.criterion.as_ref().map(field).map_err(ToString::to_string)
-        };
+        let value = |field: fn(&Criterion) -> f64| self.criterion.as_ref().map(field);
         fields.known("criterion", Quantity::Ratio, value(|criterion| criterion.value)).known(
             "criterion_error",
             Quantity::Ratio,
             value(|criterion| criterion.error),
         );
-        let rate = self.criterion.as_ref().map_err(ToString::to_string);
-        fields.rate("growth_rate", rate.map(|found| of.mass.rate() * of_criterion(found.value)));
+        let rate = self.criterion.as_ref();
+        fields.known_rate(
+            "growth_rate",
+            rate.map(|found| of.mass.rate() * of_criterion(found.value)),
+        );
         match &self.critical_amplitudes {
             Err(why) => {
-                fields.unknown("critical_amplitudes", why.to_string());
+                fields.unknown("critical_amplitudes", why);
             }
             Ok(critical) => {
                 let items = critical.iter().map(|critical| {
@@ -209,7 +269,7 @@ fn put_bands(
     let bands = match bands {
         Ok(bands) => bands,
         Err(why) => {
-            fields.unknown(name, why.to_string());
+            fields.unknown(name, why);
             return;
         }
     };
@@ -233,27 +293,23 @@ fn is_neutral(belt: &Belt) -> bool {
     belt.damping_rate(slope, belt.normal_load()) == 0.0
 }
 
-fn everywhere_stable(belt: &Belt, averaging: Averaging) -> Result<f64, String> {
+fn everywhere_stable(belt: &Belt, averaging: Averaging) -> Result<f64, NoStableAmplitude> {
     let [dither] = belt.dithers() else {
         return Err(match belt.dithers() {
-            [] => "the study has no dither",
-            _ => "it is defined for a single dither, and this study has several",
-        }
-        .to_owned());
+            [] => NoStableAmplitude::NoDither,
+            _ => NoStableAmplitude::SeveralDithers,
+        });
     };
     if averaging == Averaging::FiniteR && dither.lowest_ratio() <= 1.0 {
         let frequency_ratio = dither.lowest_ratio();
-        return Err(AveragingError::NotFast { frequency_ratio }.to_string());
+        return Err(AveragingError::NotFast { frequency_ratio }.into());
     }
     if averaging == Averaging::FiniteR && dither.direction == Direction::Normal {
-        return Err("of normal dither it is known to first order alone, in the limit".to_owned());
+        return Err(NoStableAmplitude::OfNormal);
     }
     let is_noise = !dither.waveform.is_periodic();
     if !is_noise && !dither.waveform.is_symmetric() {
-        let name = dither.waveform.name();
-        return Err(format!(
-            "it is known for sine, triangle, square and noise; \"{name}\" has corners at every maximum of its fast velocity"
-        ));
+        return Err(NoStableAmplitude::Cornered(dither.waveform.name()));
     }
     let found = if is_noise {
         everywhere_stable_under_noise(belt, dither, averaging)
@@ -266,24 +322,10 @@ fn everywhere_stable(belt: &Belt, averaging: Averaging) -> Result<f64, String> {
         let (damping, load) = (belt.damping_ratio(), belt.normal_load());
         everywhere_stable_amplitude(belt.friction(), damping, load, wave, dither.direction)
     };
-    match found.map_err(|why| why.to_string())? {
-        EverywhereStable::Always if is_neutral(belt) => {
-            Err("without damping and with a flat friction law nothing grows or decays".to_owned())
-        }
+    match found? {
+        EverywhereStable::Always if is_neutral(belt) => Err(NoStableAmplitude::Neutral),
         EverywhereStable::Always => Ok(0.0),
         EverywhereStable::From { amplitude_ratio, .. } => Ok(amplitude_ratio),
-        EverywhereStable::Never { why } => Err(match why {
-            NeverStable::NoDamping => {
-                "without damping, a friction law that keeps falling leaves fast surfaces unstable at any amplitude"
-            }
-            NeverStable::InnerRegion => {
-                "slow surfaces stay unstable at any amplitude: the friction law falls too steeply"
-            }
-            NeverStable::OffScale => "no such amplitude ratio exists up to 10⁶ v_m",
-            NeverStable::NoEdge => {
-                "without dither, sliding is unstable at every velocity examined (up to 365 v_m), so no amplitude was tried"
-            }
-        }
-        .to_owned()),
+        EverywhereStable::Never { why } => Err(NoStableAmplitude::Never(why)),
     }
 }

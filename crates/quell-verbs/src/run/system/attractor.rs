@@ -2,26 +2,39 @@
 //! report it.
 
 use quell_dynamics::attractor::{MotionKind, SystemAttractor};
-use quell_dynamics::orbit::{BASE_STEPS, base_response, sliding_verdict};
+use quell_dynamics::orbit::{
+    BASE_STEPS, NoOrbit, NoSlidingVerdict, base_response, sliding_verdict,
+};
 use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::json;
 
 use super::in_units;
 use crate::fields::Fields;
+use crate::reasons::reasons;
 use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural};
+
+reasons! {
+    /// Why the local stability of a study is unknown.
+    pub enum NoLocalVerdict {
+        /// The base response is unknown.
+        NoBaseResponse(NoOrbit),
+        /// The verdict on steady sliding is unknown.
+        NoSlidingVerdict(NoSlidingVerdict),
+        ;
+    }
+}
 
 /// Verdict on the base response of a dithered system, or on steady sliding without dither.
 ///
 /// # Errors
 /// Why it is unknown.
-pub fn local_verdict(system: &System) -> Result<&'static str, String> {
+pub fn local_verdict(system: &System) -> Result<&'static str, NoLocalVerdict> {
     if system.is_dithered() {
-        let base = base_response(system, BASE_STEPS).map_err(|why| why.to_string())?;
-        return Ok(base.verdict().name());
+        return Ok(base_response(system, BASE_STEPS)?.verdict().name());
     }
-    Ok(sliding_verdict(system).map_err(|why| why.to_string())?.name())
+    Ok(sliding_verdict(system)?.name())
 }
 
 /// Why the observed velocity is unknown.
@@ -36,7 +49,7 @@ pub(in crate::run) fn put_state(fields: &mut Fields, study: &SystemStudy, state:
     fields
         .plain("state", state.to_vec())
         .number("displacement", Quantity::Displacement, displacement)
-        .known("velocity", Quantity::Velocity, velocity.ok_or_else(|| WITHOUT_VELOCITY.to_owned()));
+        .known("velocity", Quantity::Velocity, velocity.ok_or(WITHOUT_VELOCITY));
 }
 
 /// Rate of an observed displacement in a state of masses.
@@ -189,7 +202,7 @@ pub(in crate::run) const VERDICTS: [(u8, &str); 4] =
     [(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
 
 /// The code of a verdict in datasets.
-pub(in crate::run) fn verdict_code(local: &Result<&'static str, String>) -> u8 {
+pub(in crate::run) fn verdict_code(local: &Result<&'static str, NoLocalVerdict>) -> u8 {
     let word = local.as_ref().map_or("unknown", |word| *word);
     VERDICTS.iter().find(|(_, known)| *known == word).map_or(3, |(code, _)| *code)
 }

@@ -87,7 +87,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
             let point: Vec<f64> = asked.over.iter().map(|range| range.from).collect();
             system(OperatingPoint { point: &point, others }, amplitude.from).map(|_| ())
         };
-        at(&own).map_err(|why| why.to_string())?;
+        at(&own)?;
         let exactly = |exactly: bool| {
             let (system, others) = (system.clone(), own.clone());
             move |point: &[f64], range: (f64, f64)| {

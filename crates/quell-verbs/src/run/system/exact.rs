@@ -64,8 +64,8 @@ impl ExactStability {
             .plain("sentence", self.sentence(study))
             .plain("verdict", self.orbit.growth().verdict().name())
             .plain("protocol", "floquet")
-            .rate("growth_rate", Ok(rate))
-            .rate("growth_rate_error", Ok(error))
+            .rate("growth_rate", rate)
+            .rate("growth_rate_error", error)
             .number("frequency", Quantity::FrequencyRatio, frequency)
             .number("period", Quantity::Time, self.orbit.period)
             .plain("state", self.orbit.state.clone())
@@ -73,8 +73,8 @@ impl ExactStability {
         let exponents = self.orbit.exponents.iter().map(|found: &SlipExponent| {
             let mut inner = Fields::in_units(units);
             inner
-                .rate("growth_rate", Ok(found.exponent.re))
-                .rate("growth_rate_error", Ok(found.error))
+                .rate("growth_rate", found.exponent.re)
+                .rate("growth_rate_error", found.error)
                 .number("frequency", Quantity::FrequencyRatio, found.exponent.im)
                 .plain("multiplier", vec![found.multiplier.re, found.multiplier.im]);
             inner

@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 use quell_linear::averaging::CriticalInput;
 use quell_linear::growth::Verdict;
-use quell_linear::measured::{MeasuredSliding, MeasuredSystem, Receptance};
+use quell_linear::measured::{MeasuredSliding, MeasuredSystem, NoMeasuredVerdict, Receptance};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -37,7 +37,7 @@ pub struct MeasuredDither {
     /// Sliding without it.
     pub undithered: MeasuredSliding,
     /// Critical amplitudes of the first one.
-    pub critical: Result<Vec<CriticalInput>, String>,
+    pub critical: Result<Vec<CriticalInput>, NoMeasuredVerdict>,
     /// The error of each by interpolation between the measured frequencies; `None` where it is unknown.
     pub interpolation: Vec<Option<f64>>,
 }
@@ -68,7 +68,7 @@ pub fn run(
         return Ok(MeasuredStability { sliding: undithered, dither: None });
     }
     let sliding = prepared.average(None).map_err(no_verdict)?;
-    let critical = prepared.critical_amplitudes(0).map_err(|why| why.to_string());
+    let critical = prepared.critical_amplitudes(0);
     let interpolation = prepared.interpolation_errors(0, critical.as_deref().unwrap_or_default());
     let dither = MeasuredDither { undithered, critical, interpolation };
     Ok(MeasuredStability { sliding, dither: Some(dither) })
@@ -117,8 +117,8 @@ impl MeasuredStability {
             .plain("sentence", self.sentence(study))
             .plain("verdict", self.sliding.verdict().name())
             .plain("protocol", if self.dither.is_some() { "averaged" } else { "linearised" })
-            .rate("growth_rate", Err(NO_RATE.to_owned()))
-            .rate("growth_rate_error", Err(NO_RATE.to_owned()))
+            .known_rate("growth_rate", Err(NO_RATE))
+            .known_rate("growth_rate_error", Err(NO_RATE))
             .number("frequency", Quantity::FrequencyRatio, self.sliding.turns.closest)
             .unknown("eigenvalues", NO_RATE)
             .plain("unstable_roots", self.sliding.turns.unstable)
@@ -144,12 +144,12 @@ impl MeasuredStability {
                 let verdict: Verdict = undithered.verdict();
                 inner
                     .plain("verdict", verdict.name())
-                    .rate("growth_rate", Err(NO_RATE.to_owned()))
+                    .known_rate("growth_rate", Err(NO_RATE))
                     .number("frequency", Quantity::FrequencyRatio, undithered.turns.closest);
                 fields.nested("undithered", inner);
                 put_critical(&mut fields, units, critical, |index, found| {
                     let between = interpolation.get(index).copied().flatten();
-                    between.map(|error| error + found.error).ok_or_else(|| UNCHECKED.to_owned())
+                    between.map(|error| error + found.error).ok_or(UNCHECKED)
                 });
             }
         }

@@ -26,7 +26,7 @@ use crate::words::{digits, more_digits};
 
 /// The failure of a verb with its reason.
 pub(in crate::run) fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
-    Failure::Failed { key: verb.to_owned(), why: why.to_string() }
+    Failure::Failed { key: verb.to_owned(), why: why.to_string().into() }
 }
 
 /// The failure of averaging.
@@ -134,10 +134,10 @@ pub(crate) fn force(units: UnitSystem, value: f64) -> String {
 pub(crate) fn put_motion(system: &System, units: UnitSystem, motion: &SmallMotion) -> Fields {
     let mut fields = Fields::in_units(units);
     fields
-        .rate("growth_rate", Ok(motion.eigenvalue.re))
+        .rate("growth_rate", motion.eigenvalue.re)
         .number("frequency", Quantity::FrequencyRatio, motion.frequency())
         .number("damping_ratio", Quantity::Ratio, motion.damping_ratio())
-        .rate("error", Ok(motion.error))
+        .rate("error", motion.error)
         .plain(
             "shape",
             motion.shape.iter().map(|z| [z.re, z.im]).map(Vec::from).collect::<Vec<_>>(),
@@ -149,7 +149,7 @@ pub(crate) fn put_motion(system: &System, units: UnitSystem, motion: &SmallMotio
     } else {
         let work = contacts.map(|(contact, share)| {
             let mut inner = Fields::in_units(units);
-            inner.plain("contact", contact.name.clone()).rate("growth_rate", Ok(*share));
+            inner.plain("contact", contact.name.clone()).rate("growth_rate", *share);
             inner
         });
         fields.list("friction_work", work);

@@ -12,7 +12,7 @@ use super::curves::put_contacts;
 use super::{TRIED, Thresholds, side};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::criticality;
+use crate::run::criticality::{self, NoLyapunovCoefficient};
 use crate::run::system::attractor::put_state;
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::start::state_columns;
@@ -228,7 +228,7 @@ fn put(study: &SystemStudy, unit: &str, found: &Threshold) -> Fields {
     }
     let length = study.units().unit(Quantity::Displacement).unwrap_or("1");
     criticality::put_fold(&mut fields, [unit, length], &found.fold);
-    let found = found.first_lyapunov.map_err(|why| why.to_string());
+    let found = found.first_lyapunov.map_err(NoLyapunovCoefficient::from);
     criticality::put(&mut fields, length, &found);
     fields
 }

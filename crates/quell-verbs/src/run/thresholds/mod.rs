@@ -271,12 +271,10 @@ fn slides_steadily(system: &System) -> bool {
 /// The reason of a failure.
 fn why_of(why: &Failure) -> String {
     match why {
-        Failure::Failed { why, .. } => why.clone(),
-        Failure::Wrong(complaints) => complaints
-            .iter()
-            .map(|complaint| complaint.allowed.clone())
-            .collect::<Vec<_>>()
-            .join("; "),
+        Failure::Failed { why, .. } => why.to_string(),
+        Failure::Wrong(complaints) => {
+            complaints.iter().map(|complaint| &*complaint.allowed).collect::<Vec<_>>().join("; ")
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use quell_model::units::Quantity;
 
 use super::Thresholds;
 use super::curves::kind_in_words;
-use crate::run::criticality;
+use crate::run::criticality::{self, NoLyapunovCoefficient};
 use crate::run::system::in_units;
 use crate::study::SystemStudy;
 use crate::words::{capital, quantity_at, quantity_is};
@@ -228,7 +228,7 @@ impl Thresholds {
                 from = high;
             }
             let gap = gaps.next_if(|gap| gap.grazing == threshold.value);
-            let criticality = threshold.first_lyapunov.map_err(|why| why.to_string());
+            let criticality = threshold.first_lyapunov.map_err(NoLyapunovCoefficient::from);
             let kind = kind_in_words(study, threshold.kind, &threshold.contacts)
                 + &criticality::clause(&criticality, ", ", "")
                 + &criticality::opening_clause(&threshold.fold, ", ", &quantity_at(path));

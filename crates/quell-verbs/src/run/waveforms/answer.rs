@@ -4,17 +4,33 @@ use quell_model::Waveform;
 use quell_model::units::{Quantity, UnitSystem};
 use serde_json::Value as Json;
 
-use super::{COLUMNS, ComparedWaveform, LeastDither, WaveformComparison};
+use super::{COLUMNS, ComparedWaveform, LeastDither, NoLeastDither, WaveformComparison};
 use crate::contact_state::averages_are_a_start;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::reasons::reasons;
 use crate::run::stability::FAR;
 use crate::study::SystemStudy;
 
+reasons! {
+    /// Why a range of quiet amplitudes has no end.
+    enum NoUpperEnd {
+        /// No amplitude is quiet.
+        NoLeast(NoLeastDither),
+        ;
+        /// All larger ones are, by averaging.
+        ByAveraging => "no larger amplitude makes it unstable again by averaging",
+        /// All larger ones are that were searched.
+        UpToLimit => "no larger amplitude makes it unstable again up to the limit of the search",
+    }
+}
+
 /// The amplitude at which a range of quiet amplitudes ends, or why it has no value.
-fn until(found: &Result<LeastDither, String>, of: &str) -> Result<f64, String> {
-    let none = || format!("no larger amplitude makes it unstable again {of}");
-    found.clone()?.until.ok_or_else(none)
+fn until(
+    found: &Result<LeastDither, NoLeastDither>,
+    without: NoUpperEnd,
+) -> Result<f64, NoUpperEnd> {
+    found.clone()?.until.ok_or(without)
 }
 
 impl WaveformComparison {
@@ -73,13 +89,13 @@ impl WaveformComparison {
             for column in &COLUMNS {
                 inner.known(column.name, column.quantity, row.averaged_value(column));
             }
-            inner.known("until", Quantity::Force, until(&row.averaged, "by averaging"));
+            inner.known("until", Quantity::Force, until(&row.averaged, NoUpperEnd::ByAveraging));
             for column in &COLUMNS {
                 let name = format!("exact_{}", column.name);
                 inner.known(&name, column.quantity, row.exact_value(column));
             }
-            let of = "up to the limit of the search";
-            inner.known("exact_until", Quantity::Force, until(&row.exact, of));
+            let exact_until = until(&row.exact, NoUpperEnd::UpToLimit);
+            inner.known("exact_until", Quantity::Force, exact_until);
             inner
         });
         fields.plain("carrier", self.carrier).plain("ranked_by", self.ranked_by().name());
@@ -107,15 +123,15 @@ impl WaveformComparison {
 
     /// The arrays of a dataset: duty cycle, the quantities by averaging, and the exact amplitude.
     fn arrays(&self) -> Vec<(String, Quantity, Vec<f64>)> {
-        let each = |of: &dyn Fn(&ComparedWaveform) -> Result<f64, String>| -> Vec<f64> {
+        let each = |of: &dyn Fn(&ComparedWaveform) -> Option<f64>| -> Vec<f64> {
             self.rows.iter().map(|row| of(row).unwrap_or(f64::NAN)).collect()
         };
-        let duty = ("duty_cycle".to_owned(), Quantity::Ratio, each(&|row| Ok(row.duty_cycle)));
+        let duty = ("duty_cycle".to_owned(), Quantity::Ratio, each(&|row| Some(row.duty_cycle)));
         let averaged = COLUMNS.iter().map(|column| {
-            (column.name.to_owned(), column.quantity, each(&|row| row.averaged_value(column)))
+            (column.name.to_owned(), column.quantity, each(&|row| row.averaged_value(column).ok()))
         });
         let exact = ("exact_amplitude".to_owned(), Quantity::Force, {
-            each(&|row| Ok(row.exact.clone()?.amplitude))
+            each(&|row| Some(row.exact.as_ref().ok()?.amplitude))
         });
         [duty].into_iter().chain(averaged).chain([exact]).collect()
     }

@@ -5,11 +5,13 @@
 
 use std::fmt::Write as _;
 
+use quell_linear::driven_point::NoDrivenPoint;
 use quell_linear::linear_cost::LinearCost;
 use quell_model::Waveform;
 use quell_model::units::Quantity;
 
-use super::label;
+use super::{NoLeastDither, label};
+use crate::reasons::reasons;
 use crate::run::system::in_units;
 use crate::study::SystemStudy;
 
@@ -34,13 +36,24 @@ pub struct ComparedWaveform {
     /// Whether it repeats too slowly for averaging to rank it.
     pub slow: bool,
     /// The least dither by averaging, or why no amplitude quenches.
-    pub averaged: Result<LeastDither, String>,
+    pub averaged: Result<LeastDither, NoLeastDither>,
     /// The exact least dither at the study's frequency, or why it is unknown.
-    pub exact: Result<LeastDither, String>,
+    pub exact: Result<LeastDither, NoLeastDither>,
     /// The cost of unit amplitude in the structure without friction, or why it has no value.
-    pub unit: Result<LinearCost, String>,
+    pub unit: Result<LinearCost, NoDrivenPoint>,
     /// Why the average, which does not know the state of the contacts, differs from that with it at the least amplitude.
     pub without_state: Option<String>,
+}
+
+reasons! {
+    /// Why a quantity of a waveform has no value.
+    pub enum NoWaveformValue {
+        /// No amplitude quenches.
+        NoLeast(NoLeastDither),
+        /// The cost has no value.
+        NoCost(NoDrivenPoint),
+        ;
+    }
 }
 
 /// The waveforms of a study.
@@ -80,7 +93,7 @@ pub struct CostColumn {
     /// What it is.
     pub quantity: Quantity,
     /// The value at an amplitude.
-    of: fn(f64, &ComparedWaveform) -> Result<f64, String>,
+    of: fn(f64, &ComparedWaveform) -> Result<f64, NoDrivenPoint>,
 }
 
 /// The compared quantities, the amplitude first.
@@ -101,19 +114,19 @@ pub const COLUMNS: [CostColumn; 5] = [
         name: "power",
         words: "power",
         quantity: Quantity::Power,
-        of: |amplitude, row| Ok(amplitude * amplitude * row.unit.clone()?.power),
+        of: |amplitude, row| Ok(amplitude * amplitude * row.unit?.power),
     },
     CostColumn {
         name: "stroke",
         words: "stroke",
         quantity: Quantity::Displacement,
-        of: |amplitude, row| Ok(amplitude * row.unit.clone()?.stroke),
+        of: |amplitude, row| Ok(amplitude * row.unit?.stroke),
     },
     CostColumn {
         name: "velocity",
         words: "velocity",
         quantity: Quantity::Velocity,
-        of: |amplitude, row| Ok(amplitude * row.unit.clone()?.velocity),
+        of: |amplitude, row| Ok(amplitude * row.unit?.velocity),
     },
 ];
 
@@ -127,13 +140,13 @@ impl ComparedWaveform {
     ///
     /// # Errors
     /// Why it has no value.
-    pub fn averaged_value(&self, column: &CostColumn) -> Result<f64, String> {
-        (column.of)(self.averaged.as_ref().map_err(Clone::clone)?.amplitude, self)
+    pub fn averaged_value(&self, column: &CostColumn) -> Result<f64, NoWaveformValue> {
+        Ok((column.of)(self.averaged.as_ref().map_err(Clone::clone)?.amplitude, self)?)
     }
 
     /// A quantity at the exact least amplitude, or why it has no value.
-    pub(crate) fn exact_value(&self, column: &CostColumn) -> Result<f64, String> {
-        (column.of)(self.exact.clone()?.amplitude, self)
+    pub(crate) fn exact_value(&self, column: &CostColumn) -> Result<f64, NoWaveformValue> {
+        Ok((column.of)(self.exact.clone()?.amplitude, self)?)
     }
 }
 
@@ -193,7 +206,7 @@ impl WaveformComparison {
                 named(best)
             ),
             (RankedBy::Averaging, ..) => {
-                let why = best.exact.as_ref().err().map_or("", String::as_str);
+                let why = best.exact.as_ref().err().map_or(String::new(), ToString::to_string);
                 format!(
                     "No waveform has an exact amplitude that stabilises steady sliding ({}: {why}). By averaging alone {} has the least \
                      amplitude, {value}.",
@@ -214,7 +227,10 @@ impl WaveformComparison {
                 .to_owned();
         }
         let why = self.rows.iter().find_map(|row| row.averaged.as_ref().err());
-        format!("No waveform quenches: {}.", why.map_or("none was tried", String::as_str))
+        format!(
+            "No waveform quenches: {}.",
+            why.map_or("none was tried".to_owned(), ToString::to_string)
+        )
     }
 
     /// The waveform that takes least power, against the carrier without pauses.

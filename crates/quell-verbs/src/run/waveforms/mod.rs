@@ -14,8 +14,9 @@
 mod answer;
 mod comparison;
 
+use quell_design::NoAnswer;
 use quell_design::least_dither::first_averaged;
-use quell_design::quench::{NotQuenched, quench};
+use quell_design::quench::{NoQuench, NotQuenched, quench};
 use quell_dynamics::response::{BAND_END, wave_reaches_the_band};
 use quell_dynamics::simulation::{is_used_up, within};
 use quell_linear::averaging::DitheredSystem;
@@ -28,7 +29,9 @@ use quell_model::{System, Waveform};
 use serde_json::Value as Json;
 
 pub use comparison::{COLUMNS, CostColumn};
-pub use comparison::{ComparedWaveform, LeastDither, RankedBy, WaveformComparison};
+pub use comparison::{
+    ComparedWaveform, LeastDither, NoWaveformValue, RankedBy, WaveformComparison,
+};
 
 use super::design::with_wave;
 use super::stability::FAR;
@@ -38,6 +41,7 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::averaged_without_states;
 use crate::effort::STEPS_OF_AN_ALTERNATIVE;
 use crate::parallel::Parallel;
+use crate::reasons::reasons;
 use crate::study::SystemStudy;
 
 /// Bursts have duty cycles of whole eighths, in lowest terms: the shortest bursts of each duty cycle.
@@ -68,7 +72,7 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
         let unit = with_wave(system.clone(), 0, |_| wave.clone());
         let range = first_averaged(&unit, 0);
         let quiet_without = range.as_ref().is_ok_and(|(low, _)| *low == 0.0);
-        let averaged = range.map_err(|why| why.to_string()).and_then(least);
+        let averaged = range.map_err(NoLeastDither::from).and_then(least);
         let without_state = averaged.as_ref().ok().and_then(|least| {
             let average = DitheredSystem::new(&unit).ok()?;
             let average = average.average_with(Some((0, least.amplitude))).ok()?;
@@ -81,7 +85,7 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
             slow: wave.repetition() < FAR * highest,
             exact: exact(&unit, quiet_without),
             averaged,
-            unit: cost.map_err(|why| why.to_string()),
+            unit: cost,
             without_state,
             waveform: waveform.clone(),
         }
@@ -139,48 +143,57 @@ fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
-/// Why a waveform that repeats in the band of the vibration has no exact amplitude: the base response may be stable, but it is no quench.
-fn in_the_band() -> String {
-    format!(
-        "it repeats at or below {BAND_END} times the frequency of the vibration, so that the motion in step with it is a slow vibration \
-         itself"
-    )
+reasons! {
+    /// Why no amplitude of a waveform is known that quenches.
+    pub enum NoLeastDither {
+        /// There is no average.
+        NotAveraged(NoAnswer),
+        /// The base response could not be followed.
+        NoQuench(NoQuench),
+        /// It does not become stable.
+        NotQuenched(NotQuenched),
+        ;
+        /// The waveform repeats in the band of the vibration: the base response may be stable, but it is no quench.
+        InTheBand => &format!(
+            "it repeats at or below {BAND_END} times the frequency of the vibration, so that the motion in step with it is a slow \
+             vibration itself"
+        ),
+        /// The steps of the search are used up.
+        TooSensitive =>
+            "the base response is so sensitive that the search used up its steps before it became stable",
+    }
 }
 
 /// The exact least amplitude of the first dither of a system, as in maps and `thresholds`.
 ///
 /// # Errors
 /// Why none is known.
-fn exact(system: &System, quiet_without: bool) -> Result<LeastDither, String> {
+fn exact(system: &System, quiet_without: bool) -> Result<LeastDither, NoLeastDither> {
     if wave_reaches_the_band(system) {
-        return Err(in_the_band());
+        return Err(NoLeastDither::InTheBand);
     }
     if quiet_without {
-        return Err(NotQuenched::QuietWithout.to_string());
+        return Err(NotQuenched::QuietWithout.into());
     }
     let (found, cut_short) = within(STEPS_OF_AN_ALTERNATIVE, || (quench(system, 0), is_used_up()));
-    let too_sensitive = || TOO_SENSITIVE.to_owned();
     match found {
-        Err(why) => Err(if cut_short { too_sensitive() } else { why.to_string() }),
+        Err(_) if cut_short => Err(NoLeastDither::TooSensitive),
+        Err(why) => Err(why.into()),
         Ok(found) => match found.least() {
             Ok(change) => Ok(LeastDither { amplitude: change.amplitude, until: found.lost() }),
-            Err(NotQuenched::Ends) if cut_short => Err(too_sensitive()),
-            Err(why) => Err(why.to_string()),
+            Err(NotQuenched::Ends) if cut_short => Err(NoLeastDither::TooSensitive),
+            Err(why) => Err(why.into()),
         },
     }
 }
-
-/// Why no amplitude is known where the steps of the search are used up.
-const TOO_SENSITIVE: &str =
-    "the base response is so sensitive that the search used up its steps before it became stable";
 
 /// The least dither of the first range of amplitudes that are quiet by averaging.
 ///
 /// # Errors
 /// That all of them are.
-fn least((low, high): (f64, f64)) -> Result<LeastDither, String> {
+fn least((low, high): (f64, f64)) -> Result<LeastDither, NoLeastDither> {
     if low == 0.0 {
-        return Err(NotQuenched::QuietWithout.to_string());
+        return Err(NotQuenched::QuietWithout.into());
     }
     Ok(LeastDither { amplitude: low, until: high.is_finite().then_some(high) })
 }

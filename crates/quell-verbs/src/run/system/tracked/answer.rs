@@ -3,13 +3,12 @@
 use quell_linear::growth::Verdict;
 use quell_linear::tracking::{StabilityChange, ThresholdOfStability};
 use quell_model::units::Quantity;
-use quell_numerics::continuation::criticality::FirstLyapunov;
 use serde_json::{Value as Json, json};
 
 use super::{StabilityCurve, SurfaceAtRest, TrackRequest, TrackedStability};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::criticality;
+use crate::run::criticality::{self, FoundLyapunov};
 use crate::run::system::{oscillating, value_at};
 use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural, quantity_at, quantity_is};
@@ -151,8 +150,9 @@ impl TrackedStability {
         });
         fields.list("rests", rests);
         let unknown = self.tracked.unknown.iter();
-        let unknown =
-            unknown.map(|range| json!({ "from": range.from, "to": range.to, "why": range.why }));
+        let unknown = unknown.map(
+            |range| json!({ "from": range.from, "to": range.to, "why": range.why.to_string() }),
+        );
         fields.plain("unknown", unknown.collect::<Vec<Json>>());
         fields.plain("warnings", self.warnings(study));
         fields.finish()
@@ -289,7 +289,7 @@ fn put(
     study: &SystemStudy,
     unit: &str,
     found: &ThresholdOfStability,
-    first_lyapunov: &Result<FirstLyapunov, String>,
+    first_lyapunov: &FoundLyapunov,
 ) -> Fields {
     let mut fields = Fields::in_units(study.units());
     fields

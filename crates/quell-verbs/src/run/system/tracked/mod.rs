@@ -4,13 +4,14 @@ mod answer;
 
 use std::cell::RefCell;
 
-use quell_linear::averaging::DitheredSystem;
+use quell_linear::averaging::{AveragingError, DitheredSystem};
 use quell_linear::criticality::first_lyapunov;
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::steady::NoSteadySliding;
 use quell_linear::tracking::{Family, StabilityChange, ThresholdOfStability, Tracked, track};
+use quell_model::RefusedNumbers;
 use quell_model::parameter::NORMAL_LOAD;
-use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
+use quell_numerics::continuation::criticality::NoFirstLyapunov;
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::order::ascending_by;
@@ -19,6 +20,8 @@ use quell_numerics::roots::{Closeness, find_root};
 use super::validity::ContactRanges;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
+use crate::reasons::reasons;
+use crate::run::criticality::{FoundLyapunov, NoLyapunovCoefficient};
 use crate::run::varied::{OF_THE_EQUATIONS, kind_of_document, not_a_peak, number_meant};
 use crate::study::{Model, ParameterId, SystemStudy};
 
@@ -51,7 +54,7 @@ pub struct StabilityCurve {
     /// Its points.
     pub points: Vec<(f64, ThresholdOfStability)>,
     /// For each point the first Lyapunov coefficient, or the reason why it is unknown.
-    pub first_lyapunov: Vec<Result<FirstLyapunov, String>>,
+    pub first_lyapunov: Vec<FoundLyapunov>,
 }
 
 /// Eigenvalues over a parameter.
@@ -62,11 +65,11 @@ pub struct TrackedStability {
     /// Whether the verdicts are those of averaging.
     pub averaged: bool,
     /// The eigenvalues and thresholds over the window.
-    pub tracked: Tracked<String>,
+    pub tracked: Tracked<NoStateMatrix>,
     /// Where surfaces come to rest in the window, ascending.
     pub rests: Vec<SurfaceAtRest>,
     /// For each threshold of the window the first Lyapunov coefficient, or the reason why it is unknown.
-    pub first_lyapunov: Vec<Result<FirstLyapunov, String>>,
+    pub first_lyapunov: Vec<FoundLyapunov>,
     /// Curves along the second parameter; empty without one.
     pub curves: Vec<StabilityCurve>,
     /// Where contacts open or leave the range of their law: in the window, and over the second parameter.
@@ -83,21 +86,35 @@ struct StudyFamily<'a> {
     rests: Vec<SurfaceAtRest>,
 }
 
-impl Family for StudyFamily<'_> {
-    type Error = String;
+reasons! {
+    /// Why a study has no eigenvalues at a value of a parameter.
+    pub enum NoStateMatrix {
+        /// There is no study with the value.
+        Refused(RefusedNumbers),
+        /// There is no average.
+        NoAverage(AveragingError),
+        /// There is no steady sliding.
+        NoSliding(NoSteadySliding),
+        /// The eigenvalues are unknown.
+        Eigenvalues(EigenError),
+        ;
+    }
+}
 
-    fn matrix(&self, value: f64) -> Result<Matrix, String> {
+impl Family for StudyFamily<'_> {
+    type Error = NoStateMatrix;
+
+    fn matrix(&self, value: f64) -> Result<Matrix, NoStateMatrix> {
         let varied = (self.parameter.clone(), value);
         let numbers: Vec<_> = self.fixed.iter().cloned().chain([varied]).collect();
         let at = self.fixed.as_ref().map_or(value, |(_, along)| *along);
-        let system = self.model.at(&numbers).map_err(|why| why.to_string())?;
+        let system = self.model.at(&numbers).map_err(RefusedNumbers::by_study)?;
         if system.is_dithered() {
-            let prepared = DitheredSystem::new(&system).map_err(|why| why.to_string())?;
-            let average = prepared.average().map_err(|why| why.to_string())?;
+            let average = DitheredSystem::new(&system)?.average()?;
             ContactRanges::add(self.recorded, at, &system, Some(&average.contacts));
             return Ok(average.linear.state_matrix_with(&average.friction));
         }
-        let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
+        let linear = Linearised::new(&system)?;
         ContactRanges::add(self.recorded, at, &system, None);
         // Where dither may be averaged, bristles follow the slip at once, with dither and without.
         let at_once = !system.inputs.is_empty();
@@ -107,13 +124,13 @@ impl Family for StudyFamily<'_> {
         Ok(linear.state_matrix_with(&slopes))
     }
 
-    fn overflows(why: EigenError) -> String {
-        why.to_string()
+    fn overflows(why: EigenError) -> NoStateMatrix {
+        why.into()
     }
 
-    fn gaps(&self) -> Vec<(f64, String)> {
+    fn gaps(&self) -> Vec<(f64, NoStateMatrix)> {
         let why = |contact: &str| NoSteadySliding::AtRest { contact: contact.to_owned() };
-        self.rests.iter().map(|rest| (rest.value, why(&rest.contact).to_string())).collect()
+        self.rests.iter().map(|rest| (rest.value, why(&rest.contact).into())).collect()
     }
 }
 
@@ -225,19 +242,16 @@ fn criticality(
     study: &SystemStudy,
     numbers: &[(ParameterId, f64)],
     found: &ThresholdOfStability,
-) -> Result<FirstLyapunov, String> {
-    let text = |why: NoFirstLyapunov| why.to_string();
+) -> FoundLyapunov {
     if found.change != StabilityChange::Hopf {
-        return Err(text(NoFirstLyapunov::OtherKind));
+        return Err(NoFirstLyapunov::OtherKind.into());
     }
-    let system = study.model().at(numbers).map_err(|why| why.to_string())?;
+    let system = study.model().at(numbers).map_err(RefusedNumbers::by_study)?;
     if system.is_dithered() {
-        let why =
-            "not computed for averaged motion: `thresholds` gives that of the dithered response";
-        return Err(why.to_owned());
+        return Err(NoLyapunovCoefficient::OfAverage);
     }
-    let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
-    first_lyapunov(&system, &linear, found.eigenvalue.im.abs()).map_err(text)
+    let linear = Linearised::new(&system)?;
+    Ok(first_lyapunov(&system, &linear, found.eigenvalue.im.abs())?)
 }
 
 /// Adds the thresholds of a line to the curves that end at the line before.
