@@ -90,6 +90,11 @@ class Entries:
         keys, mirror = rows * count + columns, columns * count + rows
         at = np.minimum(np.searchsorted(keys, mirror), keys.size - 1)
         both = keys[at] == mirror
+        mixed = ~both & (rows != columns) if (both & (rows != columns)).any() else np.zeros(both.shape, dtype=np.bool_)
+        if mixed.any():
+            wrong = int(first[np.flatnonzero(mixed)[-1]])
+            allowed = f"listed with its mirror image, as others are: {self._names(wrong)} has none. Is the file cut off?{self.advice}"
+            raise StudyError([self._about(wrong, allowed)])
         differ = both & (np.abs(values[at] - values) > SYMMETRIC * np.maximum(np.abs(values[at]), np.abs(values)))
         if differ.any():
             wrong = int(np.flatnonzero(differ)[0])
