@@ -183,6 +183,14 @@ def test_wrong_files_of_abaqus_are_refused_with_their_line(change: Callable[[str
         quell.from_abaqus(*files, directions=3, **pad())
 
 
+def test_what_has_no_stiffness_is_noted(tmp_path: Path) -> None:
+    files = [labelled(tmp_path / name, entries) for name, entries in (("K.mtx", {(1, 1, 1, 1): 2.0}), ("M.mtx", {(1, 1, 1, 1): 1.0, (2, 1, 2, 1): 1.0}))]
+    assert quell.from_abaqus(*files, **pad()).notes == ("1 degree of freedom has no stiffness, such as n2_x.",)
+    files[0].write_text("1,1, 1,1, 2.0\n1,1, 1,1, 1.0\n")
+    with pytest.raises(quell.StudyError, match="line 2: '1.0' must be one entry at .n1_x, n1_x., which line 1 has"):
+        quell.from_abaqus(*files, **pad())
+
+
 def test_rows_are_not_named_twice(tmp_path: Path) -> None:
     with pytest.raises(quell.StudyError, match="line 1: a matrix whose lines have nodes and directions; leave out dofs"):
         quell.from_abaqus(*beam("\n", tmp_path), directions=1, **pad())

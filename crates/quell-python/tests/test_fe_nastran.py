@@ -111,6 +111,17 @@ def test_an_offset_mass_is_reduced_to_finite_modes(tmp_path: Path) -> None:
         quell.from_nastran(file, modes=2, damping_ratio=0.0, **pad())
 
 
+def test_rigid_motions_of_a_punch_file_are_noted(tmp_path: Path) -> None:
+    free = np.diag([1.0, 3.0, 3.0, 1.0]) / 3.0
+    free[[0, 1, 2], [1, 2, 3]] = free[[1, 2, 3], [0, 1, 2]] = -1.0 / 3.0
+    free[[1, 2], [1, 2]] = 2.0 / 3.0
+    file = write(tmp_path / "k.pch", [*dmig("KAAX", free), *dmig("MAAX", MASS)])
+    found = quell.from_nastran(file, modes=4, damping_ratio=0.0, **pad())
+    assert found.notes[-1].startswith("The lowest angular frequency, ")
+    listed = found.modes().frequency
+    assert listed.size == 4 and listed[0] < 1e-4 < listed[1]
+
+
 def test_subcases_of_matrices(tmp_path: Path) -> None:
     softer = [*dmig("KAAX", 0.5 * STIFFNESS), *dmig("MAAX", MASS)]
     file = write(tmp_path / "k.pch", ["$SUBCASE ID =           1", *WHOLE, "$SUBCASE ID =           4", *softer])
@@ -274,6 +285,12 @@ def test_motions_by_frequency_are_receptances(sort: int, form: str, kind: str, p
         wanted = np.array([motion(hertz, grid)[place] / 2.0 for hertz in HERTZ])
         # Seven digits are written, and degrees have as many.
         assert np.abs(own["re"] + 1j * own["im"] - wanted).max() < 1e-5 * np.abs(wanted).max()
+
+
+def test_matrices_next_to_modes_are_noted(tmp_path: Path) -> None:
+    file = write(tmp_path / "m.pch", [*vectors(lambda lines: lines), *WHOLE])
+    found = quell.from_nastran(file, damping_ratio=0.0, modal_mass=1, **pad())
+    assert found.notes == ("Matrices of the file were not read: KAAX (line 23), MAAX (line 36).",) and len(found.mode) == 2
 
 
 def test_wrong_motions_are_refused(tmp_path: Path) -> None:

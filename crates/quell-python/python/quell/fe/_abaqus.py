@@ -35,8 +35,7 @@ def from_abaqus(
     """A study of matrices that Abaqus has written as text (``JOB_STIF1.mtx``, ``JOB_MASS1.mtx``, ``JOB_DMPV1.mtx``).
 
     The three formats of ``*MATRIX OUTPUT`` are read: ``MATRIX INPUT`` and ``LABELS`` have lines of row node, row direction, column
-    node, column direction and entry, with commas or spaces; ``COORDINATE`` has lines of row, column and entry. Entries that a file
-    repeats are added, as Abaqus does on input. The text of a substructure (``*SUBSTRUCTURE MATRIX OUTPUT``) has all matrices in one
+    node, column direction and entry, with commas or spaces; ``COORDINATE`` has lines of row, column and entry. The text of a substructure (``*SUBSTRUCTURE MATRIX OUTPUT``) has all matrices in one
     file, which is given for each. Nodes that Abaqus adds have negative numbers and names such as ``internal1_x``.
 
     Degrees of freedom that boundary conditions restrain (1e36 on the diagonal) are left out, and directions without mass are

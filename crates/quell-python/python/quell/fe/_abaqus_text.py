@@ -42,10 +42,10 @@ def matrix_of(file: str | os.PathLike[str], name: str, rows: Rows, symmetric: bo
     refuse = Refusal(name, file)
     if any(line[:13].upper() == "*USER ELEMENT" for _, line in lines_of(name, file)):
         return substructure(file, name, refuse)
-    found = Entries(name, file, symmetric=symmetric, repeated=True, advice=ADVICE)
+    found = Entries(name, file, symmetric=symmetric, advice=ADVICE)
     bare: list[Line] = []
     labels = 0
-    for entry in entries(lines_of(name, file), refuse):
+    for entry in entries(file, lines_of(name, file), refuse):
         if labels not in (0, len(entry.labels)):
             refuse.met(entry.number, f"{len(entry.labels)} labels before the entry, and {labels} in the lines above")
         labels = len(entry.labels)
@@ -63,7 +63,7 @@ def matrix_of(file: str | os.PathLike[str], name: str, rows: Rows, symmetric: bo
     return found
 
 
-def entries(lines: Iterable[tuple[int, str]], refuse: Refusal) -> Iterable[Line]:
+def entries(path: str | os.PathLike[str], lines: Iterable[tuple[int, str]], refuse: Refusal) -> Iterable[Line]:
     """The lines with entries."""
     last, number, fixed = "", 0, 0
     for number, line in lines:
@@ -81,15 +81,15 @@ def entries(lines: Iterable[tuple[int, str]], refuse: Refusal) -> Iterable[Line]
         if len(found.labels) not in (2, 4) or (len(found.labels) == 4 and not all(1 <= found.labels[at] for at in (1, 3))):
             refuse(number, line, "row node, direction, column node, direction and a finite entry, or row, column and entry")
         # Abaqus writes numbers of equal length: a shorter one at the end has lost digits.
-        if fixed and len(last.lstrip("-+")) < fixed and cut_off(refuse.path):
+        if fixed and len(last.lstrip("-+")) < fixed and cut_off(path):
             refuse(number, line, f"an entry of {fixed} characters as those above: the file is cut off")
         fixed = len(last.lstrip("-+")) if "e" in last.lower() else 0
         yield found
 
 
-def cut_off(path: object) -> bool:
+def cut_off(path: str | os.PathLike[str]) -> bool:
     """Whether a file ends without the end of a line."""
-    with open(str(path), "rb") as file:
+    with open(os.fspath(path), "rb") as file:
         file.seek(-1, os.SEEK_END)
         return file.read(1) not in b"\r\n"
 
@@ -101,8 +101,6 @@ def by_rows(bare: list[Line], found: Entries, rows: Rows, refuse: Refusal) -> No
         refuse.met(least.number, f"row {least.labels[0]} and column {least.labels[1]}; they begin at 1")
     count = max(max(entry.labels) for entry in bare)
     dofs = rows.named(count, f"{refuse.path} (FORMAT=COORDINATE)")
-    # One line for each entry: only MATRIX INPUT adds those that it repeats.
-    found.repeated = False
     for entry in bare:
         found.add(dofs[entry.labels[0] - 1], dofs[entry.labels[1] - 1], entry.value, entry.number)
 
@@ -116,7 +114,7 @@ def keyword(line: str) -> tuple[str, dict[str, str]]:
 
 def substructure(file: str | os.PathLike[str], name: str, refuse: Refusal) -> Entries:
     """A matrix of the text of a substructure: nodes in comments, lists of degrees of freedom, and rows of the lower triangle."""
-    found = Entries(name, file, symmetric=True, repeated=False)
+    found = Entries(name, file, symmetric=True)
     nodes: list[int] = []
     count, expects_nodes, wanted, begun = 0, False, False, 0
     lists: list[tuple[int, str]] = []

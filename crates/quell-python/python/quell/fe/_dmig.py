@@ -118,7 +118,7 @@ def matrices(lines: Iterable[tuple[int, str]], refuse: Refusal, wanted: dict[tup
             continue
         if is_header(fields):
             forms[key] = checked(header_of(number, line, fields, case, refuse), forms.get(key), refuse)
-            found[key] = Entries(key, refuse.path, symmetric=forms[key].form == SYMMETRIC, repeated=False)
+            found[key] = Entries(key, refuse.path, symmetric=forms[key].form == SYMMETRIC)
             continue
         if key not in found:
             refuse(number, line, f"the header of {name} before its columns")

@@ -79,7 +79,7 @@ def market_matrix(file: str | os.PathLike[str], name: str, rows: Rows, symmetric
     dofs = rows.named(count, str(file))
     if len(dofs) != count:
         refuse.met(head.line, f"a matrix of {count} rows, and another one of the structure has {len(dofs)}")
-    found = Entries(name, file, symmetric=symmetric or head.symmetry == "symmetric", repeated=False)
+    found = Entries(name, file, symmetric=symmetric or head.symmetry == "symmetric")
     read = coordinates(lines, head, refuse) if head.form == "coordinate" else columns(lines, head, refuse)
     for number, row, column, value in read:
         found.add(dofs[row - 1], dofs[column - 1], value, number)

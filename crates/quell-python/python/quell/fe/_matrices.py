@@ -17,7 +17,7 @@ from .._system import System
 from ._entries import RESTRAINT, Entries, Listed
 from ._massless import without_mass
 from ._modal import PerMode, system_of_modes
-from ._modes import FreeMotion, modes_of
+from ._modes import FreeMotion, modes_of, rounding_note
 from ._notes import noted
 from ._points import Dof, Points, Units, chosen, name_of
 from ._sparse import lowest_of
@@ -69,6 +69,17 @@ def assembled(given: dict[str, Entries]) -> tuple[Assembled, int]:
         inner.append(Listed(number[rows[moves]], number[columns[moves]], values[moves]))
     left = [dof for dof, is_kept in zip(dofs, kept, strict=True) if is_kept]
     return Assembled(left, *inner), len(dofs) - len(left)
+
+
+def free_note(entries: Assembled) -> list[str]:
+    """A sentence about degrees of freedom without an entry of the stiffness."""
+    held: npt.NDArray[np.bool_] = np.zeros(len(entries.dofs), dtype=bool)
+    held[entries.stiffness.rows] = True
+    free = np.flatnonzero(~held)
+    if not free.size:
+        return []
+    have = "1 degree of freedom has" if free.size == 1 else f"{free.size} degrees of freedom have"
+    return [f"{have} no stiffness, such as {name_of(entries.dofs[free[0]])}."]
 
 
 def dense(entries: Assembled) -> Matrices:
@@ -123,8 +134,9 @@ def system_of_matrices(
     damping_ratio: PerMode,
     notes: list[str],
     study: dict[str, Any],
+    has_ten_digits: bool = False,
 ) -> System:
-    """The study of a structure with these matrices, by what they are: `KINDS`.
+    """The study of a structure with these matrices, by what they are: `KINDS`; ``has_ten_digits``: the file has no more of a number.
 
     Raises
     ------
@@ -136,6 +148,7 @@ def system_of_matrices(
         raise StudyError([complaint("stiffness", None, "a matrix with a degree of freedom that can move", "conflict")])
     if restrained:
         notes = [*notes, f"{restrained} restrained degrees of freedom were left out."]
+    notes = notes + free_note(whole)
     damped: list[str] = [kind for kind in ("damping", "structural_damping") if kind in given]
     if modes is not None:
         if damped and damping_ratio is not None:
@@ -144,7 +157,7 @@ def system_of_matrices(
         motion = free_motion(whole, points, modes, notes)
         found = modes_of(motion, damped)
         system = system_of_modes(found, units=units, points=points, damping_ratio=damping_ratio, modal_mass=None, study=study)
-        return noted(system, motion.notes)
+        return noted(system, motion.notes + (rounding_note(motion) if has_ten_digits else []))
     if "structural_damping" in given:
         allowed = "left out (None), or given together with modes: structural damping has no matrix in time"
         allowed += ", and half its loss factor is the damping ratio of a mode"

@@ -13,7 +13,7 @@ from ._massless import finite_motions, infinite_note
 from ._modal import FileMode
 from ._points import Dof
 
-__all__ = ["COUPLED", "FreeMotion", "check_count", "check_symmetry", "modes_of"]
+__all__ = ["COUPLED", "FreeMotion", "check_count", "check_symmetry", "modes_of", "rounding_note"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -22,6 +22,9 @@ SYMMETRIC = 1e-9
 
 RIGID = 1e-9
 """Share of the cancellation in φᵀKφ below which an eigenvalue is rounding of a rigid motion, whose frequency is 0: files have ten digits."""
+
+ROUNDING = 16.0 * float(np.finfo(np.float64).eps)
+"""The same of positive eigenvalues, times the root of the number of terms: rounding of double numbers. A soft support is above it."""
 
 COUPLED = 1e-6
 """Modal damping is diagonal if the coupling of two modes is below this share of their own damping."""
@@ -91,11 +94,26 @@ def frequencies_of(motion: FreeMotion) -> Floats:
     if (residual.max(axis=0) > ACCURATE * scale).any():
         allowed = "entries of sizes that can be computed with: the eigenvalues of these matrices are lost in rounding"
         raise StudyError([complaint("stiffness", None, allowed, "conflict")])
-    growing = values < -RIGID * (abs(shapes) * size).sum(axis=0)
+    cancelled = (abs(shapes) * size).sum(axis=0)
+    growing = values < -RIGID * cancelled
     if growing.any():
         allowed = f"positive semidefinite for a reduction to modes; its least eigenvalue is {values.min():.6g}"
         raise StudyError([complaint("stiffness", None, allowed, "conflict")])
-    return np.sqrt(np.clip(values, 0.0, None))
+    elastic = values > ROUNDING * np.sqrt(len(shapes)) * cancelled
+    return np.sqrt(np.where(elastic, values, 0.0))
+
+
+def rounding_note(motion: FreeMotion) -> list[str]:
+    """A sentence about frequencies that are within the rounding of ten digits, which a punch file has."""
+    cancelled = (abs(motion.shapes) * (abs(motion.stiffness) @ abs(motion.shapes))).sum(axis=0)
+    unsure = motion.values[np.abs(motion.values) < RIGID * cancelled]
+    if not unsure.size:
+        return []
+    largest = float(np.sqrt(np.abs(unsure).max()))
+    if unsure.size == 1:
+        return [f"The lowest angular frequency, {largest:.3g}, is within the rounding of ten digits: that of a rigid motion, or not known."]
+    have = f"The {unsure.size} lowest angular frequencies, up to {largest:.3g}"
+    return [f"{have}, are within the rounding of ten digits: those of rigid motions, or not known."]
 
 
 def modes_of(motion: FreeMotion, damped: list[str]) -> list[FileMode]:

@@ -120,6 +120,8 @@ def from_nastran(
     blocks = blocks_of(lines_of("path", path), refuse, ("EIGENVECTOR", *MOTIONS))
     vectors = [block for block in blocks if is_mode(block)]
     motions = [block for block in blocks if is_by_frequency(block)]
+    headers = headers_of(lines_of("path", path), refuse)
+    others = [f"Matrices of the file were not read: {', '.join(header.words() for header in headers)}."] if headers else []
     if vectors:
         found, notes = eigenvectors(vectors, subcase, limit, refuse)
         if modes is not None:
@@ -127,21 +129,20 @@ def from_nastran(
                 raise StudyError([complaint("modes", modes, f"a whole number from 1 to {len(found)}")])
             found = sorted(found, key=lambda mode: mode.frequency)[:modes]
         system = system_of_modes(found, units=units, points=points, damping_ratio=damping_ratio, modal_mass=modal_mass, study=study)
-        return noted(system, notes)
+        return noted(system, notes + others)
     if motions:
         check_left_out(modes=modes, damping_ratio=damping_ratio, modal_mass=modal_mass)
         responses, notes = responses_of(motions, force, force_amplitude, subcase, refuse)
         place = written(responses, points, units, save, static)
-        return noted(System(frequency_response=place, units=units, **study), notes)
-    headers = headers_of(lines_of("path", path), refuse)
+        return noted(System(frequency_response=place, units=units, **study), notes + others)
     if not headers:
         raise StudyError([nothing(blocks, path)])
     if modal_mass is not None:
         raise StudyError([complaint("modal_mass", None, "left out: the file has no eigenvectors", "conflict")])
     read, notes = read_matrices(headers, given, subcase, path, refuse)
     return system_of_matrices(
-        read, units=units, points=points, modes=modes, damping_ratio=damping_ratio, notes=notes, study=study
-    )  # fmt: skip
+        read, units=units, points=points, modes=modes, damping_ratio=damping_ratio, notes=notes, study=study, has_ten_digits=True
+    )
 
 
 def check_left_out(**given: Any) -> None:

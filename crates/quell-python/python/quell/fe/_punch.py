@@ -68,13 +68,14 @@ class Block:
 def blocks_of(lines: Iterable[tuple[int, str]], refuse: Refusal, wanted: tuple[str, ...]) -> list[Block]:
     """The blocks of a file; rows are read of those whose kind begins with one of ``wanted``."""
     found: list[Block] = []
-    case, in_head = 0, False
+    case, in_head, in_bulk = 0, False, False
     for number, line in lines:
         # Columns 73 to 80 count the lines.
         line = line[:72].rstrip()
         if line.startswith("$ "):
             continue
         if line.startswith("$"):
+            in_bulk = False
             key, equals, value = line[1:].partition("=")
             key = " ".join(key.split()).upper()
             if not equals:
@@ -94,7 +95,10 @@ def blocks_of(lines: Iterable[tuple[int, str]], refuse: Refusal, wanted: tuple[s
                     last = found[-1]
                     found.append(Block(number, last.kind, last.form, case))
                 found[-1].keys[key] = (number, value)
-        elif line.strip() and found and found[-1].kind.startswith(wanted):
+        elif line[:1].isalpha() or line[:1] == "*":
+            # Entries of an input file, such as DMIG, with their continuations.
+            in_bulk = True
+        elif line.strip() and not in_bulk and found and found[-1].kind.startswith(wanted):
             add_row(found[-1], number, line, refuse)
     return found
 
