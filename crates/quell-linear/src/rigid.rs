@@ -96,8 +96,7 @@ fn cancels(matrix: &Matrix, shape: &[Complex64]) -> bool {
 /// Every entry carries the sum of its terms; where it is only rounding of these it is 0.
 fn null_space(matrices: [&Matrix; 2]) -> Vec<Vec<f64>> {
     let n = matrices[0].columns();
-    let rows =
-        matrices.iter().flat_map(|matrix| (0..matrix.rows()).map(|i| matrix.row(i).to_vec()));
+    let rows = matrices.iter().flat_map(|matrix| (0..matrix.rows()).map(|i| matrix.row(i)));
     let mut rows: Vec<[Vec<f64>; 2]> = rows.filter_map(scaled_row).collect();
     let mut order: Vec<usize> = (0..n).collect();
     let rounding = ROUNDING * n as f64;
@@ -122,7 +121,7 @@ fn null_space(matrices: [&Matrix; 2]) -> Vec<Vec<f64>> {
 }
 
 /// A row with its largest entry 1, and the sizes of its terms; `None` for a row of zeros.
-fn scaled_row(row: Vec<f64>) -> Option<[Vec<f64>; 2]> {
+fn scaled_row(row: &[f64]) -> Option<[Vec<f64>; 2]> {
     let largest = row.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     let scaled: Vec<f64> = row.iter().map(|x| x / largest).collect();
     (largest > 0.0).then(|| [scaled.clone(), scaled.iter().map(|x| x.abs()).collect()])
