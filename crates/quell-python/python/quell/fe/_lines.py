@@ -132,7 +132,7 @@ def lines_of(argument: str, path: str | os.PathLike[str]) -> Iterator[tuple[int,
     """
     place = regular(argument, path)
     try:
-        with place.open(encoding="utf-8", errors="replace") as file:
+        with place.open(encoding="utf-8-sig", errors="replace") as file:
             number = 0
             while line := file.readline(LONGEST):
                 number += 1

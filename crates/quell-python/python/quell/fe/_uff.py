@@ -71,7 +71,7 @@ def data_sets(argument: str, path: str | os.PathLike[str]) -> list[DataSet]:
     """
     refuse = Refusal(argument, path)
     with open(os.fspath(path), "rb") as file:
-        content = file.read()
+        content = file.read().removeprefix(b"\xef\xbb\xbf")
     if not re.search(rb"^ *-1 *\r?$", content, re.MULTILINE):
         check_kind(argument, path, INSTEAD)
         refuse.met(1, f"no data set begins, with a line -1; {INSTEAD}")
@@ -82,7 +82,8 @@ def data_sets(argument: str, path: str | os.PathLike[str]) -> list[DataSet]:
         end = content.find(b"\n", at)
         end = len(content) if end < 0 else end
         line, at, number = content[at:end].rstrip(b"\r"), end + 1, number + 1
-        if line.strip() == b"-1":
+        # A number −1 of data is in ten columns.
+        if line.strip() == b"-1" and len(line.rstrip()) <= 6:
             is_open, current = not is_open, None
         elif is_open and current is None:
             current = begun(number, line, refuse)

@@ -58,10 +58,14 @@ class Function(NamedTuple):
     labels: list[str]
     """Units that abscissa, ordinate and its denominator have in words."""
 
-    def words(self) -> str:
+    def name(self) -> str:
         """What the function is."""
         name = FUNCTIONS[self.kind] if 0 <= self.kind < len(FUNCTIONS) else "unknown function"
-        return f"data set 58 (line {self.line}): {name} (function type {self.kind})"
+        return f"{name} (function type {self.kind})"
+
+    def words(self) -> str:
+        """What the function is, and where."""
+        return f"data set 58 (line {self.line}): {self.name()}"
 
 
 def head_lines(one: DataSet) -> int:

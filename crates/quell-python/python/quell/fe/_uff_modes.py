@@ -94,7 +94,7 @@ def shape_of(one: DataSet, head: Result, refuse: Refusal) -> dict[Dof, complex]:
     if head.where != AT_NODES:
         refuse.met(one.line, "a mode with results at elements, not at nodes")
     if head.values not in (3, 6):
-        what = f"a mode with {head.values} values at a node (characteristic {head.characteristic})"
+        what = f"a mode with {head.values} value{'' if head.values == 1 else 's'} at a node (characteristic {head.characteristic})"
         refuse.met(one.line, f"{what}; read are three displacements, or three and three rotations")
     parts = 2 if head.is_complex else 1
     shape: dict[Dof, complex] = {}
@@ -156,7 +156,9 @@ def modes_of_sets(sets: list[tuple[DataSet, Result]], limit: float, has_mass: bo
             value = omega * complex(-ratio, math.sqrt(1.0 - ratio**2))
             complex_modes.append((ComplexMode(value, 0j, shape, named(head)), damping, mass))
         else:
-            value, modal_a = complex(head.reals[0], head.reals[1]), complex(head.reals[2], head.reals[3])
+            value, modal_a, modal_b = (complex(*head.reals[at : at + 2]) for at in (0, 2, 4))
+            # λ = −B/A.
+            modal_a = modal_a or (-modal_b / value if value else 0j)
             if value.imag < 0.0:
                 notes.append(f"Mode {head.number} (line {one.line}) of negative frequency was left out: it is the conjugate of another.")
                 continue

@@ -179,6 +179,10 @@ def check_left_out(**given: Any) -> None:
 
 def others_left_out(functions: list[tuple[DataSet, Function]]) -> list[str]:
     """A note about functions that are no frequency responses."""
-    others = [head.words() for _, head in functions if head.kind != FREQUENCY_RESPONSE]
-    return [f"Not read: {'; '.join(others)}."] if others else []
+    counts: dict[str, int] = {}
+    for _, head in functions:
+        if head.kind != FREQUENCY_RESPONSE:
+            counts[head.name()] = counts.get(head.name(), 0) + 1
+    others = "; ".join(f"{count} × {name}" if count > 1 else name for name, count in counts.items())
+    return [f"Not read of data sets 58: {others}."] if others else []
 
