@@ -318,6 +318,18 @@ def test_wrong_motions_are_refused(tmp_path: Path) -> None:
             quell.from_nastran(file, **{**how, **change})
 
 
+def test_a_file_that_ends_within_a_number_is_refused(tmp_path: Path) -> None:
+    file = write(tmp_path / "k.pch", WHOLE)
+    content = file.read_bytes()
+    for short in (1, 2, 5, 8):
+        file.write_bytes(content[:-short])
+        if short == 1:
+            quell.from_nastran(file, **pad())
+            continue
+        with pytest.raises(quell.StudyError, match="line 22.*a line of 56 characters: the file is cut off"):
+            quell.from_nastran(file, **pad())
+
+
 def test_files_that_are_not_text_are_named(tmp_path: Path) -> None:
     (tmp_path / "m.op2").write_bytes(b"\x04\0\0\0\x03\0\0\0\x04\0\0\0NASTRAN FORT TAPE ID CODE - " + bytes(40))
     (tmp_path / "m.pch.gz").write_bytes(gzip.compress(b"$TITLE\n"))

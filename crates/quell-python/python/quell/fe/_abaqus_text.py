@@ -9,7 +9,7 @@ from typing import NamedTuple
 from .._errors import StudyError, complaint
 from ._coordinate import Rows
 from ._entries import Entries
-from ._lines import Refusal, check_kind, lines_of, number_of, whole_of
+from ._lines import Refusal, check_kind, is_cut_off, lines_of, number_of, whole_of
 from ._points import Dof
 
 __all__ = ["matrix_of"]
@@ -81,17 +81,10 @@ def entries(path: str | os.PathLike[str], lines: Iterable[tuple[int, str]], refu
         if len(found.labels) not in (2, 4) or (len(found.labels) == 4 and not all(1 <= found.labels[at] for at in (1, 3))):
             refuse(number, line, "row node, direction, column node, direction and a finite entry, or row, column and entry")
         # Abaqus writes numbers of equal length: a shorter one at the end has lost digits.
-        if fixed and len(last.lstrip("-+")) < fixed and cut_off(path):
+        if fixed and len(last.lstrip("-+")) < fixed and is_cut_off(path):
             refuse(number, line, f"an entry of {fixed} characters as those above: the file is cut off")
         fixed = len(last.lstrip("-+")) if "e" in last.lower() else 0
         yield found
-
-
-def cut_off(path: str | os.PathLike[str]) -> bool:
-    """Whether a file ends without the end of a line."""
-    with open(os.fspath(path), "rb") as file:
-        file.seek(-1, os.SEEK_END)
-        return file.read(1) not in b"\r\n"
 
 
 def by_rows(bare: list[Line], found: Entries, rows: Rows, refuse: Refusal) -> None:

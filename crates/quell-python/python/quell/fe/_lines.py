@@ -13,7 +13,7 @@ from typing import NoReturn
 
 from .._errors import Complaint, StudyError, StudyFileNotFoundError, complaint
 
-__all__ = ["Refusal", "check_kind", "lines_of", "number_of", "of_line", "regular", "whole_of"]
+__all__ = ["Refusal", "check_kind", "is_cut_off", "lines_of", "number_of", "of_line", "regular", "whole_of"]
 
 LONGEST = 100_000
 """Longest line in characters: a file without line ends is no text of a finite-element program."""
@@ -120,6 +120,15 @@ def check_kind(argument: str, path: str | os.PathLike[str], instead: str) -> Pat
     if found is not None:
         raise StudyError([complaint(argument, str(path), f"{path} is {found}", "path")])
     return place
+
+
+def is_cut_off(path: str | os.PathLike[str]) -> bool:
+    """Whether a file ends without the end of a line."""
+    with open(os.fspath(path), "rb") as file:
+        if file.seek(0, os.SEEK_END) == 0:
+            return False
+        file.seek(-1, os.SEEK_END)
+        return file.read(1) not in b"\r\n"
 
 
 def lines_of(argument: str, path: str | os.PathLike[str]) -> Iterator[tuple[int, str]]:

@@ -7,6 +7,7 @@ characters or between commas.
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Mapping
 from itertools import islice
 from typing import Any
@@ -16,7 +17,7 @@ from .._system import System
 from ._dmig import Header, headers_of, matrices
 from ._entries import Entries
 from ._frequency import MOTIONS, Forces, is_by_frequency, responses_of
-from ._lines import Refusal, check_kind, lines_of
+from ._lines import Refusal, check_kind, is_cut_off, lines_of
 from ._matrices import system_of_matrices
 from ._modal import PerMode, system_of_modes
 from ._notes import noted
@@ -201,8 +202,21 @@ def read_matrices(
         raise StudyError(missing)
     read = matrices(lines_of("path", path), refuse, {(case, name): key for key, name in names.items() if name in there})
     check_size(headers, names, case, read, refuse)
+    check_end(path, refuse)
     others = [header.words() for header in headers if header.name not in names.values()]
     return read, [f"Not read, because they are no part of the structure: {', '.join(others)}."] if others else []
+
+
+WIDE = 56
+"""Characters of a line of DMIG in wide fields: a field of 8 and three of 16."""
+
+
+def check_end(path: str | os.PathLike[str], refuse: Refusal) -> None:
+    """Rejects a file that ends within a line of wide fields, whose last number has lost digits."""
+    if is_cut_off(path):
+        number, line = deque(lines_of("path", path), maxlen=1)[0]
+        if "*" in line[:8] and len(line) < WIDE:
+            refuse(number, line, f"a line of {WIDE} characters: the file is cut off")
 
 
 def check_size(headers: list[Header], names: dict[str, str], case: int, read: dict[str, Entries], refuse: Refusal) -> None:
