@@ -4,6 +4,7 @@
 //! * [`eigenvalues`], [`floquet`]: growth rates with bounds, without and with dither of the friction forces;
 //! * [`criticality`]: whether the vibration beyond a Hopf bifurcation of steady sliding grows from zero, or jumps;
 //! * [`growth`]: growth rate, its error and the verdict that they allow;
+//! * [`spectrum`], [`rigid`]: every small motion with its shape; rigid motions of free structures, each once;
 //! * [`driven_point`]: the motion of the point on which a dither acts;
 //! * [`linear_cost`]: stroke, velocity and power of a dither on the structure of one mass without friction;
 //! * [`input_cost`]: the same of any sliding system at the driven point;
@@ -25,6 +26,7 @@ pub mod linearised;
 pub mod measured;
 pub mod periodic_response;
 pub mod pure_slip;
+pub mod rigid;
 pub mod series_actuator;
 pub mod spectrum;
 pub mod steady;

@@ -301,14 +301,14 @@ def test_matrices_are_files_of_matrix_market(tmp_path: Any) -> None:
 def test_missing_packages_are_named() -> None:
     program = """
 import sys
-for name in ("pandas", "xarray", "pint", "pyarrow", "scipy.io", "pyuff"):
+for name in ("pandas", "xarray", "pint", "pyarrow", "scipy.io"):
     sys.modules[name] = None
 import quell
 belt = quell.Belt(damping_ratio=0.005, normal_load=1, belt_velocity=0.05,
     friction=quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.2857, reference_velocity=0.2))
 run = belt.simulate(5)
 for call in (run.events_frame, run.to_dataframe, lambda: run.to_netcdf("x.nc"), lambda: run.to_parquet("x.parquet"), lambda: run.quantity("steps"),
-             lambda: run.to_mat("x.mat"), lambda: quell.from_universal_file(__import__("os").devnull, units="SI")):
+             lambda: run.to_mat("x.mat")):
     try:
         call()
     except ImportError as why:
@@ -322,5 +322,4 @@ for call in (run.events_frame, run.to_dataframe, lambda: run.to_netcdf("x.nc"), 
         "to_dataframe() needs pandas, which is not installed: pip install pandas",
         "quantity() needs pint, which is not installed: pip install pint",
         "to_mat() needs scipy, which is not installed: pip install scipy",
-        "from_universal_file() needs pyuff, which is not installed: pip install pyuff",
     ], done.stderr

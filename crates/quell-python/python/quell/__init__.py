@@ -14,7 +14,7 @@
     response.plot()
 
 Studies are made by :class:`Belt`, :class:`Disc`, :class:`System` or :meth:`Study.from_toml`, and from files of other programs by
-:func:`from_universal_file`, :func:`from_nastran` and :func:`from_abaqus`. Their methods are the verbs of
+:func:`from_universal_file`, :func:`from_nastran`, :func:`from_abaqus` and :func:`from_ansys`. Their methods are the verbs of
 the command line. Results (:mod:`quell.results`) have the numbers that ``--json`` prints as attributes, and everything with units
 and provenance as an xarray Dataset. :class:`StudyError` reports all errors in the input at once.
 """
@@ -48,7 +48,7 @@ from ._record import names_of, record_of
 from ._study import Study
 from ._profile import Profile
 from ._system import Component, Contact, Contacts, System, SystemDither, SystemInitial, SystemMode
-from .fe import from_abaqus, from_nastran, from_universal_file
+from .fe import from_abaqus, from_ansys, from_nastran, from_universal_file
 
 if TYPE_CHECKING:
     from .explore import explore
@@ -89,6 +89,7 @@ __all__ = [
     "__version__",
     "explore",
     "from_abaqus",
+    "from_ansys",
     "from_nastran",
     "from_universal_file",
     "load",

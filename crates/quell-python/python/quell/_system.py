@@ -512,6 +512,15 @@ class System(Study):
 
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """What a function that reads files (``quell.from_nastran``, …) left out of the file, or decided, in sentences; empty otherwise.
+
+        A study that is changed by :meth:`set` or :meth:`replace` has none.
+        """
+        found: tuple[str, ...] = self.__dict__.get("_notes", ())
+        return found
+
+    @property
     def contacts(self) -> Contacts:
         """The contacts, by name or place: ``system.contacts["pad"].friction.coefficient``."""
         document = self._document()

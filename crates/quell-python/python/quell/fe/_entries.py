@@ -38,9 +38,9 @@ class Listed(NamedTuple):
 class Entries:
     """Entries of one matrix, in the order of the file."""
 
-    def __init__(self, what: str, path: object, *, symmetric: bool, repeated: bool, advice: str = "") -> None:
-        """``symmetric``: the file may have a triangle; ``repeated``: entries are added; ``advice`` about what is not symmetric."""
-        self.what, self.path, self.symmetric, self.repeated, self.advice = what, path, symmetric, repeated, advice
+    def __init__(self, what: str, path: object, *, symmetric: bool, advice: str = "") -> None:
+        """``symmetric``: the file may have a triangle; ``advice`` about what is not symmetric."""
+        self.what, self.path, self.symmetric, self.advice = what, path, symmetric, advice
         self.dofs: dict[Dof, int] = {}
         self._rows, self._columns, self._lines = array("q"), array("q"), array("q")
         self._values = array("d")
@@ -67,10 +67,10 @@ class Entries:
         own: Whole = np.array([place[dof] for dof in self.dofs], dtype=np.int64)
         rows, columns = own[np.frombuffer(self._rows, dtype=np.int64)], own[np.frombuffer(self._columns, dtype=np.int64)]
         keys, first, where = np.unique(rows * count + columns, return_index=True, return_inverse=True)
-        if not self.repeated and keys.size < rows.size:
+        if keys.size < rows.size:
             seen: Whole = np.arange(rows.size, dtype=np.int64)
             again = int(np.flatnonzero(first[where] != seen)[0])
-            raise StudyError([self._about(again, f"one entry at {self._names(again)}, which an earlier line has")])
+            raise StudyError([self._about(again, f"one entry at {self._names(again)}, which line {self._lines[int(first[where[again]])]} has")])
         values: Floats = np.bincount(where, weights=np.frombuffer(self._values), minlength=keys.size).astype(np.float64)
         found = Listed(keys // count, keys % count, values)
         self._check_sizes(found, first)
@@ -90,6 +90,11 @@ class Entries:
         keys, mirror = rows * count + columns, columns * count + rows
         at = np.minimum(np.searchsorted(keys, mirror), keys.size - 1)
         both = keys[at] == mirror
+        mixed = ~both & (rows != columns) if (both & (rows != columns)).any() else np.zeros(both.shape, dtype=np.bool_)
+        if mixed.any():
+            wrong = int(first[np.flatnonzero(mixed)[-1]])
+            allowed = f"listed with its mirror image, as others are: {self._names(wrong)} has none. Is the file cut off?{self.advice}"
+            raise StudyError([self._about(wrong, allowed)])
         differ = both & (np.abs(values[at] - values) > SYMMETRIC * np.maximum(np.abs(values[at]), np.abs(values)))
         if differ.any():
             wrong = int(np.flatnonzero(differ)[0])

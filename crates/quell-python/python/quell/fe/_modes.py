@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from .._errors import StudyError, complaint
+from ._massless import finite_motions, infinite_note
 from ._modal import FileMode
 from ._points import Dof
 
-__all__ = ["COUPLED", "FreeMotion", "check_count", "check_symmetry", "modes_of"]
+__all__ = ["COUPLED", "FreeMotion", "check_count", "check_symmetry", "modes_of", "rounding_note"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -21,6 +22,9 @@ SYMMETRIC = 1e-9
 
 RIGID = 1e-9
 """Share of the cancellation in φᵀKφ below which an eigenvalue is rounding of a rigid motion, whose frequency is 0: files have ten digits."""
+
+ROUNDING = 16.0 * float(np.finfo(np.float64).eps)
+"""The same of positive eigenvalues, times the root of the number of terms: rounding of double numbers. A soft support is above it."""
 
 COUPLED = 1e-6
 """Modal damping is diagonal if the coupling of two modes is below this share of their own damping."""
@@ -40,30 +44,26 @@ class FreeMotion:
     mass: Any
     damping: Any
     stiffness: Any
+    structural: Any
     points: list[Dof]
     """Degrees of freedom of the study."""
     at_points: Floats
     """Shapes there (points, modes)."""
+    notes: list[str]
+    """Sentences about what was read and left out."""
 
     @classmethod
-    def of_dense(
-        cls, matrices: tuple[Floats, Floats, Floats], rows: Floats, dofs: list[Dof], count: int, points: list[Dof]
-    ) -> FreeMotion:
-        """The motions of dense matrices; ``rows`` are those of all degrees of freedom over those of the matrices."""
-        mass, damping, stiffness = matrices
-        check_count(count, len(mass))
-        check_symmetry(mass, damping, stiffness)
-        try:
-            factor = np.linalg.cholesky(mass)
-        except np.linalg.LinAlgError:
-            allowed = "positive definite over the degrees of freedom that have mass"
-            raise StudyError([complaint("mass", None, allowed, "conflict")]) from None
-        half = np.linalg.solve(factor, stiffness)
-        values, vectors = np.linalg.eigh(np.linalg.solve(factor, half.T))
-        shapes: Floats = np.linalg.solve(factor.T, vectors)[:, :count]
+    def of_dense(cls, matrices: tuple[Floats, ...], dofs: list[Dof], count: int, points: list[Dof], notes: list[str]) -> FreeMotion:
+        """The motions of dense matrices over ``dofs``: mass, damping, stiffness and structural damping."""
+        mass, damping, stiffness, structural = matrices
+        check_symmetry(mass, damping, stiffness, structural)
+        values, shapes, infinite, light = finite_motions(mass, damping, stiffness)
+        check_count(count, len(values))
+        shapes = shapes[:, :count]
         place = {dof: index for index, dof in enumerate(dofs)}
-        shown = rows[[place[dof] for dof in points]] @ shapes
-        return cls(values[:count], shapes, mass, damping, stiffness, points, shown)
+        shown = shapes[[place[dof] for dof in points]]
+        notes = notes + infinite_note(infinite, light)
+        return cls(values[:count], shapes, mass, damping, stiffness, structural, points, shown, notes)
 
 
 def check_count(count: object, most: int) -> None:
@@ -72,9 +72,9 @@ def check_count(count: object, most: int) -> None:
         raise StudyError([complaint("modes", count, f"a whole number from 1 to {most}")])
 
 
-def check_symmetry(mass: Any, damping: Any, stiffness: Any) -> None:
+def check_symmetry(mass: Any, damping: Any, stiffness: Any, structural: Any) -> None:
     """Rejects matrices whose modes are not real."""
-    for name, matrix in (("mass", mass), ("stiffness", stiffness), ("damping", damping)):
+    for name, matrix in (("mass", mass), ("stiffness", stiffness), ("damping", damping), ("structural_damping", structural)):
         if abs(matrix - matrix.T).max() > SYMMETRIC * abs(matrix).max():
             raise StudyError([complaint(name, None, "symmetric for a reduction to modes; leave out modes", "conflict")])
 
@@ -94,29 +94,62 @@ def frequencies_of(motion: FreeMotion) -> Floats:
     if (residual.max(axis=0) > ACCURATE * scale).any():
         allowed = "entries of sizes that can be computed with: the eigenvalues of these matrices are lost in rounding"
         raise StudyError([complaint("stiffness", None, allowed, "conflict")])
-    growing = values < -RIGID * (abs(shapes) * size).sum(axis=0)
+    cancelled = (abs(shapes) * size).sum(axis=0)
+    growing = values < -RIGID * cancelled
     if growing.any():
         allowed = f"positive semidefinite for a reduction to modes; its least eigenvalue is {values.min():.6g}"
         raise StudyError([complaint("stiffness", None, allowed, "conflict")])
-    return np.sqrt(np.clip(values, 0.0, None))
+    elastic = values > ROUNDING * np.sqrt(len(shapes)) * cancelled
+    return np.sqrt(np.where(elastic, values, 0.0))
 
 
-def modes_of(motion: FreeMotion, has_damping: bool) -> list[FileMode]:
-    """The modes at the points of the study."""
+def rounding_note(motion: FreeMotion) -> list[str]:
+    """A sentence about frequencies that are within the rounding of ten digits, which a punch file has."""
+    cancelled = (abs(motion.shapes) * (abs(motion.stiffness) @ abs(motion.shapes))).sum(axis=0)
+    unsure = motion.values[np.abs(motion.values) < RIGID * cancelled]
+    if not unsure.size:
+        return []
+    largest = float(np.sqrt(np.abs(unsure).max()))
+    if unsure.size == 1:
+        return [f"The lowest angular frequency, {largest:.3g}, is within the rounding of ten digits: that of a rigid motion, or not known."]
+    have = f"The {unsure.size} lowest angular frequencies, up to {largest:.3g}"
+    return [f"{have}, are within the rounding of ten digits: those of rigid motions, or not known."]
+
+
+def modes_of(motion: FreeMotion, damped: list[str]) -> list[FileMode]:
+    """The modes at the points of the study; ``damped`` has the names of the damping matrices that the file has."""
     frequencies = frequencies_of(motion)
-    ratios = modal_damping(motion.shapes, motion.damping, frequencies) if has_damping else [None] * len(frequencies)
+    ratios: list[float | None] = [None] * len(frequencies)
+    if damped:
+        viscous = modal_damping("damping", motion.shapes, motion.damping, frequencies)
+        hysteretic = modal_damping("structural_damping", motion.shapes, motion.structural, frequencies)
+        # Half the loss factor φᵀHφ/ω² of a mode.
+        ratios = [
+            0.0 if frequency == 0.0 else float((rate + loss / frequency) / (2.0 * frequency))
+            for frequency, rate, loss in zip(frequencies, viscous, hysteretic, strict=True)
+        ]
     return [
         FileMode(float(frequency), ratio, 1.0, dict(zip(motion.points, motion.at_points[:, place].tolist(), strict=True)))
         for place, (frequency, ratio) in enumerate(zip(frequencies, ratios, strict=True))
     ]
 
 
-def modal_damping(shapes: Floats, damping: Any, frequencies: Floats) -> list[float | None]:
-    """Damping ratios of a damping matrix that does not couple the modes."""
-    modal = shapes.T @ (damping @ shapes)
-    own = np.sqrt(np.abs(np.diag(modal)))
-    if (np.abs(modal - np.diag(np.diag(modal))) > COUPLED * np.outer(own, own)).any() or (np.diag(modal)[frequencies == 0.0] != 0.0).any():
-        allowed = "a damping matrix that does not couple the modes; leave out modes, or give damping_ratio instead of damping"
-        raise StudyError([complaint("damping", None, allowed, "conflict")])
-    found = zip(np.diag(modal), frequencies, strict=True)
-    return [0.0 if frequency == 0.0 else float(rate / (2.0 * frequency)) for rate, frequency in found]
+def modal_damping(name: str, shapes: Floats, damping: Any, frequencies: Floats) -> Floats:
+    """φᵀCφ of each mode, of a damping matrix that does not couple the modes.
+
+    Raises
+    ------
+    quell.StudyError
+        It couples them, or it damps a rigid motion.
+    """
+    modal: Floats = shapes.T @ (damping @ shapes)
+    rates = np.diag(modal)
+    own = np.sqrt(np.abs(rates))
+    # Rounding of the sums, of which that of a rigid motion is zero.
+    size = np.sqrt((np.abs(shapes) * (abs(damping) @ np.abs(shapes))).sum(axis=0))
+    allowed_coupling = COUPLED * np.outer(own, own) + RIGID * np.outer(size, size)
+    rigid = frequencies == 0.0
+    if (np.abs(modal - np.diag(rates)) > allowed_coupling).any() or (np.abs(rates[rigid]) > RIGID * size[rigid] ** 2).any():
+        allowed = f"a damping matrix that does not couple the modes; leave out modes, or give damping_ratio and {name}=None"
+        raise StudyError([complaint(name, None, allowed, "conflict")])
+    return rates

@@ -1,4 +1,4 @@
-"""Punch files of Nastran: eigenvectors, and matrices as DMIG entries.
+"""Punch files of Nastran: eigenvectors, matrices as DMIG entries, and motions by frequency.
 
 An own reader of two documented text formats: the lines of a punch file have fixed columns, and DMIG has fields of 8 or 16
 characters or between commas.
@@ -7,20 +7,32 @@ characters or between commas.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple, NoReturn
-
-import numpy as np
+from collections import deque
+from collections.abc import Mapping
+from itertools import islice
+from typing import Any
 
 from .._errors import Complaint, StudyError, complaint
 from .._system import System
+from ._dmig import Header, headers_of, matrices
 from ._entries import Entries
-from ._lines import lines_of, number_of, of_line, whole_of
+from ._frequency import MOTIONS, Forces, is_by_frequency, responses_of
+from ._lines import Refusal, check_kind, is_cut_off, lines_of
 from ._matrices import system_of_matrices
-from ._modal import FileMode, PerMode, system_of_modes
-from ._points import Dof, Points, Units, check_units
+from ._modal import PerMode, system_of_modes
+from ._notes import noted
+from ._points import Points, Units, check_units
+from ._punch import Block, blocks_of, summary
+from ._response import written
+from ._shapes import COLLINEAR, check_limit
+from ._vectors import eigenvectors, is_mode
 
 __all__ = ["from_nastran"]
+
+OF_FILE = "file"
+"""The damping that the file has."""
+
+INSTEAD = "request a punch file: DISPLACEMENT(PUNCH) = ALL, or EXTSEOUT(DMIGPCH)"
 
 
 def from_nastran(
@@ -29,19 +41,27 @@ def from_nastran(
     units: Units,
     stiffness: str = "KAAX",
     mass: str = "MAAX",
-    damping: str | None = None,
+    damping: str | None = OF_FILE,
+    structural_damping: str | None = OF_FILE,
     subcase: int | None = None,
     points: Points | None = None,
     modes: int | None = None,
     damping_ratio: PerMode = None,
     modal_mass: PerMode = None,
+    collinearity: float = COLLINEAR,
+    force: Forces = None,
+    force_amplitude: float = 1.0,
+    save: str | os.PathLike[str] | None = None,
+    static: Mapping[tuple[str, str], float] | None = None,
     **study: Any,
 ) -> System:
-    """A study of a punch file of Nastran (``.pch``): eigenvectors, or matrices.
+    """A study of a punch file of Nastran (``.pch``): eigenvectors, matrices, or motions by frequency.
 
-    Eigenvectors are those that ``DISPLACEMENT(PUNCH) = ALL`` writes in SOL 103. Matrices are DMIG entries, which
-    ``EXTSEOUT(DMIGPCH)`` or ``PARAM,EXTOUT,DMIGPCH`` write. Degrees of freedom without mass are eliminated statically, which is exact.
-    Matrices of more than 1000 degrees of freedom are sparse: they need ``modes``, ``points`` and SciPy.
+    Eigenvectors are those that ``DISPLACEMENT(PUNCH) = ALL`` writes in SOL 103, or in SOL 107 if their shapes are nearly real. Matrices
+    are DMIG entries, which ``EXTSEOUT(DMIGPCH)`` or ``PARAM,EXTOUT,DMIGPCH`` write. Directions without mass are eliminated statically,
+    which is exact; ``modes`` is needed where they are not coordinates, as those of an offset mass. Motions by frequency of SOL 108 and
+    111, in SORT1 or SORT2, are receptances over a force that is stated. Matrices of more than 1000 degrees of freedom are sparse: they
+    need ``modes``, ``points`` and SciPy. What was left out of a file is in :attr:`quell.System.notes`.
 
     Parameters
     ----------
@@ -49,10 +69,13 @@ def from_nastran(
         The punch file.
     units :
         Units of the model: "SI", "mm-t-s" or, for numbers without units, "none".
-    stiffness, mass, damping :
-        Names of the matrices [default: KAAX, MAAX and no damping].
+    stiffness, mass :
+        Names of the matrices [default: KAAX and MAAX].
+    damping, structural_damping :
+        Names of the matrices of viscous and of structural damping; ``None`` leaves them out [default: BAAX and K4AAX, if the file has
+        them]. Structural damping needs ``modes``: it becomes half its loss factor in each.
     subcase :
-        Subcase of the eigenvectors, where there are several.
+        Subcase of the eigenvectors, the matrices or the motions, where there are several.
     points :
         Names of grids with a direction, such as ``{"pad_x": (1204, "x")}`` [default: every one, as ``n1204_x``].
     modes :
@@ -63,6 +86,14 @@ def from_nastran(
     modal_mass :
         Modal mass of the eigenvectors: 1 for mass-normalised ones (``NORM=MASS``, the default of EIGRL). A punch file does not say how
         its eigenvectors are normalised.
+    collinearity :
+        Least modal phase collinearity of complex eigenvectors; others are left out [default: 0.95].
+    force, force_amplitude :
+        Of motions by frequency, grid and direction of the force, of all subcases or in a dict by subcase, and its real amplitude
+        [default: 1].
+    save, static :
+        Of motions by frequency, the CSV file for the receptances, and static ones where the file does not begin at 0 Hz: as of
+        :func:`quell.from_universal_file`.
     study :
         Everything else of :class:`quell.System`: ``contact``, ``friction``, ``dither``, …
 
@@ -76,196 +107,122 @@ def from_nastran(
         A line that is wrong, or everything that is wrong in the study.
     """
     check_units(units)
-    wrong = [complaint(key, it, "the name of a matrix") for key, it in (("stiffness", stiffness), ("mass", mass)) if not isinstance(it, str)]
-    if damping is not None and not isinstance(damping, str):
-        wrong.append(complaint("damping", damping, "the name of a matrix"))
+    given = {"stiffness": stiffness, "mass": mass, "damping": damping, "structural_damping": structural_damping}
+    wrong = [
+        complaint(key, name, "the name of a matrix")
+        for key, name in given.items()
+        if not isinstance(name, str) and not (name is None and key.endswith("damping"))
+    ]
     if wrong:
         raise StudyError(wrong)
-    if any(line.startswith("$EIGENV") for _, line in lines_of("path", path)):
-        found = eigenvectors(lines_of("path", path), subcase, Refusal(path))
+    limit = check_limit(collinearity)
+    check_kind("path", path, INSTEAD)
+    refuse = Refusal("path", path)
+    blocks = blocks_of(lines_of("path", path), refuse, ("EIGENVECTOR", *MOTIONS))
+    vectors = [block for block in blocks if is_mode(block)]
+    motions = [block for block in blocks if is_by_frequency(block)]
+    headers = headers_of(lines_of("path", path), refuse)
+    others = [f"Matrices of the file were not read: {', '.join(header.words() for header in headers)}."] if headers else []
+    if vectors:
+        found, notes = eigenvectors(vectors, subcase, limit, refuse)
         if modes is not None:
             if not isinstance(modes, int) or isinstance(modes, bool) or not 1 <= modes <= len(found):
                 raise StudyError([complaint("modes", modes, f"a whole number from 1 to {len(found)}")])
             found = sorted(found, key=lambda mode: mode.frequency)[:modes]
-        return system_of_modes(found, units=units, points=points, damping_ratio=damping_ratio, modal_mass=modal_mass, study=study)
+        system = system_of_modes(found, units=units, points=points, damping_ratio=damping_ratio, modal_mass=modal_mass, study=study)
+        return noted(system, notes + others)
+    if motions:
+        check_left_out(modes=modes, damping_ratio=damping_ratio, modal_mass=modal_mass)
+        responses, notes = responses_of(motions, force, force_amplitude, subcase, refuse)
+        place = written(responses, points, units, save, static)
+        return noted(System(frequency_response=place, units=units, **study), notes + others)
+    if not headers:
+        raise StudyError([nothing(blocks, path)])
     if modal_mass is not None:
         raise StudyError([complaint("modal_mass", None, "left out: the file has no eigenvectors", "conflict")])
-    names = {"stiffness": stiffness, "mass": mass} | ({} if damping is None else {"damping": damping})
-    read = matrices(lines_of("path", path), path, {name.upper(): key for key, name in names.items()})
-    missing = [absent(key, name, list(read)) for key, name in names.items() if name.upper() not in read]
-    if missing:
-        raise StudyError(missing)
-    chosen = {key: read[name.upper()] for key, name in names.items()}
+    read, notes = read_matrices(headers, given, subcase, path, refuse)
     return system_of_matrices(
-        chosen["mass"],
-        chosen.get("damping"),
-        chosen["stiffness"],
-        units=units,
-        points=points,
-        modes=modes,
-        damping_ratio=damping_ratio,
-        study=study,
+        read, units=units, points=points, modes=modes, damping_ratio=damping_ratio, notes=notes, study=study, has_ten_digits=True
     )
 
 
-def absent(key: str, name: str, read: list[str]) -> Complaint:
-    """The complaint about a matrix that the file does not have."""
-    there = f"the name of a matrix of the file: {', '.join(read)}" if read else "in the file, which has no eigenvectors and no DMIG"
-    return complaint(key, name, there)
+def check_left_out(**given: Any) -> None:
+    """Rejects arguments that belong to modes."""
+    wrong = [
+        complaint(name, None, "left out: the study is of motions by frequency", "conflict") for name, value in given.items() if value is not None
+    ]
+    if wrong:
+        raise StudyError(wrong)
 
 
-RIGID = 1e-9
-"""Eigenvalues below 0 down to this share of the largest of a file are rounding of rigid motions, whose frequency is 0."""
+def nothing(blocks: list[Block], path: str | os.PathLike[str]) -> Complaint:
+    """The complaint about a file that has nothing to be read, by what it has."""
+    wanted = "eigenvectors, motions by frequency or matrices (DMIG)"
+    if not blocks:
+        first = " ".join(line for _, line in islice(lines_of("path", path), 400)).upper()
+        for words, what in OTHERS.items():
+            if words in first:
+                return complaint("path", str(path), f"{path} is {what}, which is not read; {INSTEAD}", "path")
+        return complaint("path", str(path), f"{path} has no table of results and no DMIG: expected a punch file of Nastran with {wanted}", "path")
+    is_static = not any({"EIGENVALUE", "FREQUENCY", "TIME", "POINT ID"} & block.keys.keys() for block in blocks)
+    of = "static results" if is_static else "results"
+    return complaint("path", str(path), f"{path} has {of}: {summary(blocks)}; a structure needs {wanted}", "path")
 
 
-class Refusal:
-    """Complains about lines of a file."""
+OTHERS = {
+    "N A S T R A N": "a listing of Nastran (f06)",
+    "BEGIN BULK": "an input file of Nastran",
+    "GRID,": "an input file of Nastran",
+    "GRID  ": "an input file of Nastran",
+}
+"""Words of other text files of Nastran, and what they are."""
 
-    def __init__(self, path: object) -> None:
-        self.path = path
-
-    def __call__(self, number: int, line: str, allowed: str) -> NoReturn:
-        raise StudyError([of_line("path", self.path, number, line, allowed)])
-
-
-class Vector(NamedTuple):
-    """An eigenvector of a file."""
-
-    eigenvalue: float
-    line: int
-    shape: dict[Dof, float]
+DEFAULTS = {"damping": "BAAX", "structural_damping": "K4AAX"}
 
 
-def eigenvectors(lines: Iterable[tuple[int, str]], subcase: int | None, refuse: Refusal) -> list[FileMode]:
-    """The modes of a punch file, of one subcase."""
-    found: dict[int, list[Vector]] = {}
-    case, shape, is_vector, grid = 0, dict[Dof, float](), False, 0
-    for number, line in lines:
-        # Columns 73 to 80 count the lines.
-        line = line[:72].rstrip()
-        if line.startswith("$"):
-            key, _, value = line[1:].partition("=")
-            key = key.strip()
-            if key.startswith("EIGENVECTOR"):
-                is_vector = True
-            elif key in ("TITLE", "SUBTITLE", "LABEL"):
-                # A new block: what follows is another kind of output unless it says otherwise.
-                is_vector, shape = False, {}
-            elif key == "SUBCASE ID":
-                try:
-                    case = whole_of(value)
-                except ValueError:
-                    refuse(number, line, "the number of a subcase")
-            elif "IMAGINARY" in key and is_vector or "MAGNITUDE" in key and is_vector:
-                refuse(number, line, "real eigenvectors, of SOL 103")
-            elif key == "EIGENVALUE" and is_vector:
-                words = value.replace("MODE =", " ").replace("MODE=", " ").split()
-                try:
-                    eigenvalue = number_of(words[0])
-                except (ValueError, IndexError):
-                    refuse(number, line, "an eigenvalue ω² and the number of a mode")
-                shape = {}
-                found.setdefault(case, []).append(Vector(eigenvalue, number, shape))
-        elif is_vector and line.strip():
-            grid = vector_line(number, line, grid, shape, refuse)
-    if not found:
-        raise StudyError([complaint("path", str(refuse.path), "eigenvectors: $EIGENVECTOR and $EIGENVALUE", "path")])
-    if subcase is None and len(found) > 1:
-        allowed = f"one of the subcases of the file, {', '.join(map(str, found))}"
-        raise StudyError([complaint("subcase", None, allowed, "missing")])
-    if subcase is not None and subcase not in found:
-        raise StudyError([complaint("subcase", subcase, f"a subcase of the file, {', '.join(map(str, found))}")])
-    vectors = next(iter(found.values())) if subcase is None else found[subcase]
-    largest = max(abs(one.eigenvalue) for one in vectors)
-    for one in vectors:
-        if one.eigenvalue < -RIGID * largest:
-            refuse(one.line, f"{one.eigenvalue:g}", "an eigenvalue ω² ≥ 0: this motion grows without friction")
-    return [FileMode(float(np.sqrt(max(one.eigenvalue, 0.0))), None, None, one.shape) for one in vectors]
+def read_matrices(
+    headers: list[Header], given: dict[str, str | None], subcase: int | None, path: str | os.PathLike[str], refuse: Refusal
+) -> tuple[dict[str, Entries], list[str]]:
+    """The matrices of a structure by what they are, and notes about what else the file has."""
+    names = {key: (DEFAULTS[key] if name == OF_FILE and key in DEFAULTS else name).upper() for key, name in given.items() if name is not None}
+    mine = [header for header in headers if header.name in names.values()]
+    cases = list(dict.fromkeys(header.case for header in mine))
+    if subcase is not None and subcase not in cases and cases != [0]:
+        raise StudyError([complaint("subcase", subcase, f"a subcase of the file, {', '.join(map(str, cases)) or 'which has none'}")])
+    if subcase is None and len(cases) > 1:
+        raise StudyError([complaint("subcase", None, f"one of the subcases of the file, {', '.join(map(str, cases))}", "missing")])
+    case = subcase if subcase in cases else (cases or [0])[0]
+    there = {header.name for header in mine if header.case == case}
+    missing = [
+        complaint(key, name, f"the name of a matrix of the file: {', '.join(dict.fromkeys(header.name for header in headers))}")
+        for key, name in names.items()
+        if name not in there and given[key] != OF_FILE
+    ]
+    if missing:
+        raise StudyError(missing)
+    read = matrices(lines_of("path", path), refuse, {(case, name): key for key, name in names.items() if name in there})
+    check_size(headers, names, case, read, refuse)
+    check_end(path, refuse)
+    others = [header.words() for header in headers if header.name not in names.values()]
+    return read, [f"Not read, because they are no part of the structure: {', '.join(others)}."] if others else []
 
 
-def vector_line(number: int, line: str, grid: int, shape: dict[Dof, float], refuse: Refusal) -> int:
-    """Adds the displacements of a line to a shape, and returns its grid."""
-    try:
-        values = [number_of(line[at : at + 18]) for at in (18, 36, 54) if line[at : at + 18].strip()]
-        if line.startswith("-CONT-"):
-            first = 4
-        else:
-            grid, kind, first = whole_of(line[:10]), line[10:18].strip(), 1
-            if kind not in ("G", "S"):
-                refuse(number, line, "a grid (G) or a scalar point (S)")
-            if kind == "S":
-                values = values[:1]
-    except ValueError:
-        refuse(number, line, "a grid, its kind and three finite displacements in columns of 18 characters")
-    for place, value in enumerate(values):
-        shape[grid, first + place] = value
-    return grid
+WIDE = 56
+"""Characters of a line of DMIG in wide fields: a field of 8 and three of 16."""
 
 
-def matrices(lines: Iterable[tuple[int, str]], path: object, wanted: dict[str, str]) -> dict[str, Entries]:
-    """The matrices of DMIG entries, by name; ``wanted`` says what each is."""
-    refuse = Refusal(path)
-    found: dict[str, Entries] = {}
-    for number, line, fields in entries(lines):
-        name = fields[1].upper()
-        try:
-            if name not in found:
-                if fields[2].strip() != "0" or len(fields) < 5:
-                    refuse(number, line, f"the header of {name} before its columns")
-                form, kind = whole_of(fields[3]), whole_of(fields[4])
-                if form not in (1, 6):
-                    refuse(number, line, "a square matrix (form 1) or a symmetric one (form 6)")
-                if kind not in (1, 2):
-                    refuse(number, line, "a real matrix (type 1 or 2)")
-                found[name] = Entries(wanted.get(name, name), path, symmetric=form == 6, repeated=False)
-                continue
-            column = dof_of(fields[2], fields[3])
-            for at in range(5, len(fields), 4):
-                if any(field.strip() for field in fields[at : at + 3]):
-                    row = dof_of(fields[at], fields[at + 1])
-                    found[name].add(row, column, number_of(fields[at + 2]), number)
-        except (ValueError, IndexError):
-            refuse(number, line, "a column of DMIG: grid and component, and rows with grid, component and a finite value")
-    return found
+def check_end(path: str | os.PathLike[str], refuse: Refusal) -> None:
+    """Rejects a file that ends within a line of wide fields, whose last number has lost digits."""
+    if is_cut_off(path):
+        number, line = deque(lines_of("path", path), maxlen=1)[0]
+        if "*" in line[:8] and len(line) < WIDE:
+            refuse(number, line, f"a line of {WIDE} characters: the file is cut off")
 
 
-def dof_of(grid: str, component: str) -> Dof:
-    """A degree of freedom; a scalar point has component 0, which is its displacement."""
-    return (whole_of(grid), max(whole_of(component or "0"), 1))
-
-
-def entries(lines: Iterable[tuple[int, str]]) -> Iterator[tuple[int, str, list[str]]]:
-    """The DMIG entries of a file with their continuations: line, text, fields. Field 4 is empty, so that rows begin at field 5."""
-    current: tuple[int, str, list[str]] | None = None
-    for number, line in lines:
-        plain = line.split("$", 1)[0].rstrip()
-        if not plain:
-            continue
-        head = plain[:8].rstrip().upper().split(",")[0]
-        if head.rstrip("*").rstrip() == "DMIG":
-            if current:
-                yield current
-            current = (number, plain, padded(plain))
-        elif head in ("", "*") or head.startswith(("*", "+")):
-            if current:
-                current[2].extend(padded(plain)[1:])
-        elif current:
-            yield current
-            current = None
-    if current:
-        yield current
-
-
-def padded(line: str) -> list[str]:
-    """The fields of a line, four after the first in the wide format and eight in the others, without the last, which continues."""
-    if "," in line:
-        fields = [field.strip() for field in line.split(",")][:9]
-        count = 9
-    elif "*" in line[:8]:
-        fields = [line[:8], *(line[at : at + 16] for at in range(8, 72, 16))]
-        count = 5
-    else:
-        fields = [line[at : at + 8] for at in range(0, 72, 8)]
-        count = 9
-    fields = [field.strip() for field in fields]
-    return fields + [""] * (count - len(fields))
+def check_size(headers: list[Header], names: dict[str, str], case: int, read: dict[str, Entries], refuse: Refusal) -> None:
+    """Rejects matrices that are smaller than their headers say: a file that is cut off would be another structure."""
+    dofs = {dof for entries in read.values() for dof in entries.dofs}
+    for header in headers:
+        if header.name == names["stiffness"] and header.case == case and header.columns is not None and len(dofs) != header.columns:
+            what = f"the header of {header.name} states {header.columns} columns, and the matrices of the file have {len(dofs)} degrees of freedom"
+            refuse.met(header.line, f"{what}. Is the file cut off? If the others have neither stiffness nor mass, correct the number")

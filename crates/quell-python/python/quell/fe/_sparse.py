@@ -30,8 +30,8 @@ SEED = 1
 """Seed of the start of the iteration, so that equal files give equal modes."""
 
 
-def lowest_of(dofs: list[Dof], entries: tuple[Listed, Listed, Listed], count: int, points: list[Dof]) -> FreeMotion:
-    """The lowest motions of mass, damping and stiffness over ``dofs``, with the shapes at ``points``.
+def lowest_of(dofs: list[Dof], entries: tuple[Listed, ...], count: int, points: list[Dof], notes: list[str]) -> FreeMotion:
+    """The lowest motions of mass, damping, stiffness and structural damping over ``dofs``, with the shapes at ``points``.
 
     Raises
     ------
@@ -42,11 +42,11 @@ def lowest_of(dofs: list[Dof], entries: tuple[Listed, Listed, Listed], count: in
     """
     sparse = needed("scipy.sparse", f"reading {len(dofs)} degrees of freedom")
     size = (len(dofs), len(dofs))
-    mass, damping, stiffness = (sparse.csc_array((it.values, (it.rows, it.columns)), shape=size) for it in entries)
+    mass, damping, stiffness, structural = (sparse.csc_array((it.values, (it.rows, it.columns)), shape=size) for it in entries)
     heavy = abs(mass).sum(axis=0) > 0.0
     # ARPACK needs one direction more than modes.
     check_count(count, min(int(heavy.sum()), len(dofs) - 2))
-    check_symmetry(mass, damping, stiffness)
+    check_symmetry(mass, damping, stiffness, structural)
     empty = np.flatnonzero(~heavy & (abs(stiffness).sum(axis=0) == 0.0))
     if empty.size:
         allowed = f"a mass for every free motion: {name_of(dofs[empty[0]])} has neither mass nor stiffness"
@@ -57,7 +57,11 @@ def lowest_of(dofs: list[Dof], entries: tuple[Listed, Listed, Listed], count: in
         raise StudyError([complaint("mass", None, "positive definite over the degrees of freedom that have mass", "conflict")])
     values, shapes = shifted(mass, stiffness, count, heavy)
     place = {dof: index for index, dof in enumerate(dofs)}
-    return FreeMotion(values, shapes, mass, damping, stiffness, points, shapes[[place[dof] for dof in points]])
+    light = int((~heavy).sum())
+    if light:
+        notes = [*notes, f"{light} degrees of freedom have no mass; they follow the others statically."]
+    shown = shapes[[place[dof] for dof in points]]
+    return FreeMotion(values, shapes, mass, damping, stiffness, structural, points, shown, notes)
 
 
 def shifted(mass: Any, stiffness: Any, count: int, heavy: npt.NDArray[np.bool_]) -> tuple[Floats, Floats]:

@@ -1,6 +1,7 @@
 //! `modes` of a system: frequencies, damping and shapes with the springs of the contacts and without friction.
 
 use quell_linear::linearised::{FrictionSlopes, Linearised};
+use quell_linear::rigid::rigid_once;
 use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::System;
 use quell_model::units::Quantity;
@@ -16,7 +17,7 @@ use crate::study::SystemStudy;
 /// Natural motions of a system without friction, the lowest first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemModes {
-    /// The motions, without conjugates.
+    /// The motions, without conjugates; rigid ones once, with λ = 0.
     pub modes: Vec<SmallMotion>,
 }
 
@@ -38,8 +39,9 @@ pub(crate) fn of(system: &System) -> Result<SystemModes, Failure> {
     let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0, bristles: None };
     let found = spectrum(&linear, &vec![none; system.contacts.len()]);
     let found = found.map_err(|why| failed("modes", why))?;
+    let motions = rigid_once(&linear, found.motions).into_iter();
     let mut modes: Vec<SmallMotion> =
-        found.motions.into_iter().filter(|motion| motion.eigenvalue.im >= 0.0).collect();
+        motions.filter(|motion| motion.eigenvalue.im >= 0.0).collect();
     ascending_by(&mut modes, natural);
     Ok(SystemModes { modes })
 }
