@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use quell::outcome::named;
 use quell::run::probability::{ProbabilityRequest, ProbabilityStart};
 use quell::running::Running;
 use quell::verbs::verbs;
@@ -16,7 +17,8 @@ fn asked(text: &str, request: ProbabilityRequest) -> Result<Json, Failure> {
     let study = Study::parse(text, &[]).map_err(Failure::Wrong)?;
     let stop = AtomicBool::new(false);
     let running = Running { threads: None, stop: &stop, progress: &() };
-    Ok(verbs(&study).probability(request, running)?.facts())
+    let found = verbs(&study).probability(request, running)?;
+    Ok(named(found.as_ref(), found.facts()))
 }
 
 fn found(text: &str, samples: usize, start: ProbabilityStart) -> Json {
@@ -240,7 +242,7 @@ fn distributions_have_the_units_of_their_keys() {
         "\"belt.belt_velocity_m_per_s\" = { lognormal = [\"3000 mm/s\", 0.1] }\n\"belt.normal_force_n\" = { uniform = [\"0.1kN\", \"200 N\"] }\n",
     );
     assert_eq!(plain["quantiles"], units["quantiles"]);
-    assert!(plain["sentence"].as_str().is_some_and(|said| said.contains(" 1/s ")));
+    assert!(plain["notes"][0].as_str().is_some_and(|said| said.contains(" 1/s ")), "{plain}");
     let wrong = refused(&format!(
         "{belt}\"belt.belt_velocity_m_per_s\" = {{ lognormal = [3.0, \"0.1 m/s\"] }}\n"
     ));
