@@ -48,7 +48,7 @@ pub fn more_digits(value: f64) -> String {
     quell_model::digits::digits(value, 6)
 }
 
-/// The number of a study at a path in words: "dither amplitude", "belt velocity of contact guide", "amplitude of dither[1]".
+/// The number of a study at a path in words: "dither amplitude", "belt velocity of contact guide", `amplitude of dither[1]`.
 ///
 /// ```
 /// use quell_verbs::words::quantity_at;

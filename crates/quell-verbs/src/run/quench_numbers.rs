@@ -16,7 +16,7 @@ use crate::words::digits;
 pub struct QuenchNumbers {
     /// The least amplitude from which the base response is stable.
     pub least: Result<f64, Status>,
-    /// The kind of bifurcation there, as its place in [`QUENCH_KINDS`].
+    /// The kind of bifurcation there, as its place in `quell_design::quench::QUENCH_KINDS`.
     pub kind: Result<usize, Status>,
     /// Where the first quiet interval ends.
     pub lost: Result<f64, Status>,
