@@ -44,6 +44,7 @@ BESIDE = {
     "quell.fit_decay",
     "quell.fit_laws",
     "quell.from_abaqus",
+    "quell.from_ansys",
     "quell.from_nastran",
     "quell.from_universal_file",
     "quell.load",
