@@ -9,7 +9,7 @@ from typing import Any
 from .._system import System
 from ._abaqus_text import matrix_of
 from ._coordinate import Rows
-from ._matrices import system_of_matrices
+from ._matrices import matrices_of_files, system_of_matrices
 from ._modal import PerMode
 from ._points import Points, Units, check_units
 
@@ -96,7 +96,6 @@ def from_abaqus(
     """
     check_units(units)
     rows = Rows(dofs, nodes, directions)
-    files = {"stiffness": stiffness, "mass": mass}
-    files |= {name: file for name, file in (("damping", damping), ("structural_damping", structural_damping)) if file is not None}
-    read = {name: matrix_of(file, name, rows, symmetric) for name, file in files.items()}
+    files = {"stiffness": stiffness, "mass": mass, "damping": damping, "structural_damping": structural_damping}
+    read = matrices_of_files(files, lambda file, kind: matrix_of(file, kind, rows, symmetric))
     return system_of_matrices(read, units=units, points=points, modes=modes, damping_ratio=damping_ratio, notes=[], study=study)

@@ -9,7 +9,7 @@ from .._errors import StudyError, complaint
 from .._system import System
 from ._coordinate import Rows
 from ._market import market_matrix, market_vector
-from ._matrices import system_of_matrices
+from ._matrices import matrices_of_files, system_of_matrices
 from ._modal import PerMode
 from ._points import Points, Units, check_units
 
@@ -82,7 +82,6 @@ def from_ansys(
         raise StudyError([complaint("mapping", None, "left out: dofs has the nodes and directions of all rows", "conflict")])
     nodes = None if mapping is None else market_vector("mapping", mapping)
     rows = Rows(dofs, nodes, directions, per_node=True)
-    files = {"stiffness": stiffness, "mass": mass}
-    files |= {name: file for name, file in (("damping", damping), ("structural_damping", structural_damping)) if file is not None}
-    read = {name: market_matrix(file, name, rows, False) for name, file in files.items()}
+    files = {"stiffness": stiffness, "mass": mass, "damping": damping, "structural_damping": structural_damping}
+    read = matrices_of_files(files, lambda file, kind: market_matrix(file, kind, rows, False))
     return system_of_matrices(read, units=units, points=points, modes=modes, damping_ratio=damping_ratio, notes=[], study=study)

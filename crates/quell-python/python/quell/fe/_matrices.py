@@ -7,6 +7,8 @@ mass that are not coordinates, as those of an offset mass, are left to the reduc
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,7 +24,7 @@ from ._notes import noted
 from ._points import Dof, Points, Units, chosen, name_of
 from ._sparse import lowest_of
 
-__all__ = ["system_of_matrices"]
+__all__ = ["matrices_of_files", "system_of_matrices"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -123,6 +125,13 @@ def condensed(matrices: Matrices) -> Matrices:
     reduced = stiffness[inner] + stiffness[np.ix_(heavy, light)] @ follow
     kept = [dof for dof, is_heavy in zip(dofs, heavy, strict=True) if is_heavy]
     return Matrices(kept, mass[inner], damping[inner], reduced, structural[inner])
+
+
+def matrices_of_files(
+    files: dict[str, str | os.PathLike[str] | None], read: Callable[[str | os.PathLike[str], str], Entries]
+) -> dict[str, Entries]:
+    """The matrices of the files that are given, by what they are; ``read`` takes a file and what it is."""
+    return {kind: read(file, kind) for kind, file in files.items() if file is not None}
 
 
 def system_of_matrices(
