@@ -257,6 +257,26 @@ fn thresholds_answer_with_the_number() {
         "The base response is stable up to the dither amplitude 0.001572 (fold, opens towards smaller \
          dither amplitude)."
     );
+    let turning = place.good(
+        &[
+            &[
+                "thresholds",
+                "quench.toml",
+                "--parameter",
+                amplitude,
+                "--from",
+                "1e-4",
+                "--to",
+                "3e-3",
+            ][..],
+            &with(&["--set", "dither.frequency_ratio=1"]),
+        ]
+        .concat(),
+    );
+    assert_eq!(
+        turning["notes"][0],
+        "There the response turns back; beyond, runs end on another motion."
+    );
     let drive = sentence("drive.toml", "belt.belt_velocity_m_per_s", ["0.005", "0.04"], &[]);
     assert!(
         drive.starts_with("Steady sliding becomes stable at the belt velocity 0.02")

@@ -18,7 +18,7 @@ FIRST_COLUMNS = ("name", "direction", "before", "after", "kind", "value", "along
 COMPLEX = ("multipliers", "eigenvalues")
 """Facts that are lists of complex numbers."""
 
-HIDDEN = ("ok", "answer", "units", "why", "warnings", "sentence", "method", "protocol")
+HIDDEN = ("ok", "answer", "units", "why", "warnings", "notes", "sentence", "method", "protocol")
 
 
 def number(value: object) -> str:
@@ -113,6 +113,7 @@ def plain(result: Result) -> str:
     lines = [f"<quell.results.{type(result).__name__}>"]
     if "sentence" in result.facts:
         lines.append(f"  {result.facts['sentence']}")
+    lines += [f"  {note}" for note in result.notes]
     unknown: dict[str, list[str]] = {}
     for name, value, unit, why in scalars(result):
         if why and value == "unknown":
@@ -167,6 +168,7 @@ def result(result: Result) -> str:
         parts.append(f" <span style='color:#666'>{html.escape(title)}</span>")
     if "sentence" in result.facts:
         parts.append(f"<p>{html.escape(result.facts['sentence'])}</p>")
+    parts += [f"<p>{html.escape(note)}</p>" for note in result.notes]
     for warning in result.warnings:
         parts.append(f"<p style='color:#D55E00'>{html.escape(warning)}</p>")
     facts = scalars(result) + [(name, words, "", "") for name, words in pairs(result)]

@@ -146,6 +146,7 @@ impl StudyReport {
                 .plain("start", answer.start.as_str())
                 .known_plain("chosen", chosen)
                 .known_plain("sentence", answer.outcome.sentence().ok_or("the answer is a table"))
+                .plain("notes", answer.outcome.notes())
                 .plain("facts", answer.facts.clone());
             inner
         });

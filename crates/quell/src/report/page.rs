@@ -234,6 +234,9 @@ fn answers(page: &mut HtmlPage, report: &StudyReport, pictured: &[(&ReportedAnsw
         if let Some(sentence) = answer.outcome.sentence() {
             page.put(&format!("<p>{}</p>", symbols(&sentence)));
         }
+        for note in answer.outcome.notes() {
+            page.put(&format!("<p>{}</p>", symbols(&note)));
+        }
         page.put(&warnings(&answer.outcome.warnings()));
         if pictured.iter().any(|(shown, _)| std::ptr::eq(*shown, answer)) {
             page.put("<p class=\"name\">Its picture is <a href=\"#pictures\">above</a>.</p>");
