@@ -219,7 +219,10 @@ fn keep_permissions(replaced: &Path, file: &File) -> io::Result<()> {
 }
 
 /// Writes a new file completely and syncs it to disk.
-fn fill(mut file: File, bytes: &[u8]) -> io::Result<()> {
+///
+/// # Errors
+/// Those of the file.
+pub fn fill(mut file: File, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.sync_all()
 }

@@ -120,7 +120,7 @@ const fn confined(
 /// Confined dependencies, with the crates that may use them.
 #[rustfmt::skip]
 pub(crate) const CONFINED: &[Confined] = &[
-    confined("rayon",      &["quell-maps", "quell-verbs"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
+    confined("rayon",      &["quell-verbs"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
     confined("toml",       &["quell-input", "xtask"],    true,  "study files are read by one crate; xtask reads manifests; tests compare studies with their schema"),
     confined("zarrs",      &["quell-maps"],              false, "stores are written by one crate, atomically"),
     confined("png",        &["quell-plot"],         true,  "pictures are drawn by one crate; tests decode them"),

@@ -7,15 +7,14 @@
 //! Names contain a random number in addition to the process identifier, so that processes on several machines that share the
 //! folder never write the same unfinished file.
 
-use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
-use std::io::{self, Write};
+use std::io;
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use super::folder::{EntryType, Folder};
-use crate::output::writing;
+use crate::output::{fill, writing};
 
 /// Age above which an unfinished file counts as abandoned: no file takes minutes to write. If its writer was only suspended,
 /// it writes the file again.
@@ -145,11 +144,6 @@ impl Unfinished {
     }
 }
 
-fn fill(mut file: File, bytes: &[u8]) -> io::Result<()> {
-    file.write_all(bytes)?;
-    file.sync_all()
-}
-
 #[cfg(test)]
 mod tests {
     use std::fs;
@@ -187,7 +181,7 @@ mod tests {
         let unfinished = Unfinished::new(Folder::open(place.path()).expect("a folder"));
         let (old, young) = (place.path().join("old"), place.path().join("young"));
         fs::write(&young, b"half").expect("a file");
-        let file = File::create(&old).expect("a file");
+        let file = fs::File::create(&old).expect("a file");
         let before = std::time::SystemTime::now() - 2 * ABANDONED;
         file.set_modified(before).expect("a time");
         unfinished.clear_abandoned().expect("it can be read");
