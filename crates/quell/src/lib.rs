@@ -142,11 +142,12 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | [`run`] | one function per question, with its outcome |
+//! | [`verbs`] | the verbs of a study, as answers that are presented |
+//! | [`run`], [`needs`], [`running`] | one function per question, what it needs of a study, and how it is run (`quell-verbs`) |
 //! | [`study`], [`complaint`], [`schema`] | studies and complaints about invalid ones (`quell-study`) |
 //! | [`keys`] | the keys of a study file in words |
 //! | [`measurement`], [`record`] | measured friction, time series and spectra in files (`quell-study`) |
-//! | [`sweep`], [`store`] | maps: points, quantities, threads; stores that survive interruptions |
+//! | [`map`], [`sweep`], [`store`], [`status`] | maps: points, quantities, why a value is unknown; stores that survive interruptions (`quell-maps`) |
 //! | [`picture`], [`plot`] | pictures of outcomes; figures as data (`quell-plot`) |
 //! | [`dataset`], [`fields`], [`output`] | labelled arrays, JSON objects, files that are complete or absent |
 //! | [`table_file`] | datasets as CSV, MATLAB and NetCDF files |

@@ -15,7 +15,7 @@ use crate::run::design::StudyWithDesign;
 use crate::run::stability::FAR;
 use crate::run::waveforms::label;
 use crate::study::SystemStudy;
-use crate::words::{digits, listed, quantity_at};
+use crate::words::{digits, listed, more_digits, quantity_at};
 
 /// Why a margin has no value where nothing needs to be quenched.
 const NOTHING_TO_QUENCH: &str = "steady sliding is stable without this dither";
@@ -30,7 +30,7 @@ const UNKNOWN_AMPLITUDE: &str = "the largest amplitude is unknown there";
 /// frequency, rounded, answers with about the inverse of the machine precision. A smaller bound would hide margins that are real.
 const MOST_MARGIN: f64 = 1e9;
 
-/// The key of a limit that is known.
+/// A limit in words.
 fn limit_in_words(limit: Option<ActuatorLimit>) -> String {
     limit.map_or_else(|| "unknown".to_owned(), |limit| format!("the {}", quantity_at(limit.path())))
 }
@@ -38,7 +38,7 @@ fn limit_in_words(limit: Option<ActuatorLimit>) -> String {
 /// A range of frequencies with its unit.
 fn range_in_words(study: &SystemStudy, (from, to): (f64, f64)) -> String {
     let scale = study.frequency_scale();
-    format!("{} to {}{}", digits(scale.of(from)), digits(scale.of(to)), scale.unit)
+    format!("{} to {}{}", more_digits(scale.of(from)), more_digits(scale.of(to)), scale.unit)
 }
 
 /// Bands of frequencies, those that are narrow apart.
@@ -134,13 +134,14 @@ impl ActuatorFound {
 
     /// The changes of the limit that binds.
     pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
-        let sure = self
-            .sure_from()
-            .filter(|sure| self.coverage.sufficient.iter().any(|band| band.ends.0 < *sure));
-        let sure = sure.map(|sure| {
-            format!("Averaging is unsure below {}.", study.frequency_scale().with_noun(sure))
+        let scale = study.frequency_scale();
+        let changes = self.coverage.changes().map(|(at, [below, above])| {
+            let [below, above] = [below, above].map(limit_in_words);
+            format!("from {below} to {above} at {}", scale.with_unit(at))
         });
-        sure.into_iter().chain(self.changes_in_words(study)).collect()
+        let changes: Vec<String> = changes.collect();
+        let binds = format!("What binds changes {}.", listed(&changes));
+        (!changes.is_empty()).then_some(binds).into_iter().collect()
     }
 
     /// The frequency at which the dither repeats as often as the vibration.
@@ -148,16 +149,10 @@ impl ActuatorFound {
         Some(self.slow? * f64::from(self.waveform.cycles()))
     }
 
-    /// The frequency from which averaging is sure.
-    fn sure_from(&self) -> Option<f64> {
-        Some(FAR * self.slow_dither()?)
-    }
-
-    /// Where averaging does not hold or is unsure, after a comma; empty where it is sure.
+    /// Where averaging does not hold or else is unsure, after a comma; empty where it is sure. A warning says both.
     fn unsure_in_words(&self, study: &SystemStudy) -> String {
         let Some(slow) = self.slow_dither() else { return String::new() };
-        let holds_from = BAND_END * slow;
-        let sure_from = FAR * slow;
+        let (holds_from, sure_from) = (BAND_END * slow, FAR * slow);
         let scale = study.frequency_scale();
         let unsure = self.coverage.sufficient.iter().any(|band| band.ends.0 < sure_from);
         match (self.range.0 < holds_from, unsure) {
@@ -170,23 +165,6 @@ impl ActuatorFound {
     /// What holds at the largest margin, or at the study's frequency.
     fn best_or_own(&self) -> &ActuatorAtFrequency {
         self.coverage.best.as_ref().unwrap_or(&self.own)
-    }
-
-    fn changes_in_words(&self, study: &SystemStudy) -> Option<String> {
-        let scale = study.frequency_scale();
-        let changes: Vec<String> = self
-            .coverage
-            .changes()
-            .map(|(at, [below, above])| {
-                format!(
-                    "from {} to {} at {}",
-                    limit_in_words(below),
-                    limit_in_words(above),
-                    scale.with_unit(at)
-                )
-            })
-            .collect();
-        (!changes.is_empty()).then(|| format!("What binds changes {}.", listed(&changes)))
     }
 
     /// Warnings: few samples where the actuator suffices, an actuator that changes the structure, and a range that averaging does not
