@@ -13,14 +13,13 @@ pub fn estimated(value: f64, error: Option<f64>) -> String {
     format!("{value} ± {error}")
 }
 
-/// Units with which keys end.
-const UNITS_OF_KEYS: [&str; 21] = [
+/// Units with which keys end, as the table of keys has them; a test compares both.
+const UNITS_OF_KEYS: [&str; 20] = [
     "n_s_per_m",
     "n_per_m",
     "n_per_a",
     "kg_per_m3",
     "m_per_s",
-    "km_per_h",
     "s_per_m",
     "per_m",
     "rpm",
@@ -46,6 +45,11 @@ pub fn digits(value: f64) -> String {
 /// Six significant digits, without trailing zeros: numbers that a study gives, and those that are estimated with an error of their own.
 pub fn more_digits(value: f64) -> String {
     quell_model::digits::digits(value, 6)
+}
+
+/// A unit after a number, with the space before it; nothing without a unit, or of a plain number.
+pub fn unit_after(unit: Option<&str>) -> String {
+    unit.filter(|unit| *unit != "1").map_or_else(String::new, |unit| format!(" {unit}"))
 }
 
 /// The number of a study at a path in words: "dither amplitude", "belt velocity of contact guide", `amplitude of dither[1]`.
@@ -124,5 +128,38 @@ pub fn listed(parts: &[String]) -> String {
         [] => String::new(),
         [only] => only.clone(),
         [most @ .., last] => format!("{} and {last}", most.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use quell_study::study::vocabulary::{Role, keys};
+
+    use super::*;
+
+    /// What is taken for a unit at the end of a key is one by the table of keys, and every unit of the table is known.
+    #[test]
+    fn units_of_keys_are_those_of_the_table() {
+        let is_stripped = |name: &str| without_unit(name) != name;
+        for key in keys() {
+            let path = key.path();
+            let has_unit = match key.role {
+                Role::Course(course) => course.si() == Some(true),
+                _ => key.quantity().is_some() || key.takes_number(),
+            };
+            assert!(!is_stripped(key.name) || has_unit, "{path}");
+            if let Role::Twin(_, twin) = key.role
+                && !twin.unit.is_empty()
+            {
+                assert!(is_stripped(key.name), "{path} has the unit {}", twin.unit);
+            }
+        }
+        for unit in UNITS_OF_KEYS {
+            let ending = format!("_{unit}");
+            assert!(
+                keys().iter().any(|key| key.name.ends_with(&ending)),
+                "no key ends with {unit}"
+            );
+        }
     }
 }

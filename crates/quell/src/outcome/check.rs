@@ -6,7 +6,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::{TextTable, figure};
+use super::table::{TextTable, figure, figure_in_units};
 use crate::noise::lines_in_words;
 use crate::run::{check, disc, law};
 use crate::study::{
@@ -78,10 +78,7 @@ fn system_table(study: &SystemStudy) -> String {
     let listed = names.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
     let rest = if names.len() > 12 { ", …" } else { "" };
     table.word("coordinates", &format!("{}: {listed}{rest}", names.len()));
-    let with = |quantity: Quantity, value: f64| {
-        let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
-        format!("{}{unit}", figure(value))
-    };
+    let with = |quantity, value| figure_in_units(study.units(), quantity, value);
     let over_time = |quantity: Quantity, profile: &Profile| {
         let (least, largest) = profile.bounds();
         if least == largest {

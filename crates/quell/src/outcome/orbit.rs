@@ -13,6 +13,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::orbit::{FoundMotion, PeriodicResponse};
 use crate::study::{SystemSetup, SystemStudy};
+use crate::words::unit_after;
 
 /// Numbers of a state, multipliers and contacts that a table lists.
 const MOST_LISTED: usize = 12;
@@ -56,8 +57,7 @@ impl Presented<SystemSetup> for PeriodicResponse {
 fn table(study: &SystemStudy, found: &FoundMotion) -> String {
     let (orbit, samples) = (&found.orbit, &found.samples);
     let unit = |quantity: Option<Quantity>| {
-        let unit = quantity.and_then(|quantity| study.units().unit(quantity));
-        unit.map_or(String::new(), |unit| format!(" {unit}"))
+        unit_after(quantity.and_then(|quantity| study.units().unit(quantity)))
     };
     let mut text = String::new();
     let mut row = |label: &str, value: String| {

@@ -15,6 +15,7 @@ use crate::run::simulate::history::KINDS;
 use crate::run::simulate::{MotionRequest, Simulation, run};
 use crate::sound::SoundOptions;
 use crate::study::{SystemSetup, SystemStudy};
+use crate::words::unit_after;
 
 /// Numbers of a state that a table lists.
 const MOST_NUMBERS: usize = 12;
@@ -158,8 +159,8 @@ fn final_state(study: &SystemStudy, done: &Simulation, text: &mut String) {
     let width = width.unwrap_or(0).max("final state".len());
     let _ = writeln!(text, "  final state");
     for (place, value) in done.end.state.iter().enumerate().take(MOST_NUMBERS) {
-        let unit = system.state_quantity(place).and_then(|quantity| study.units().unit(quantity));
-        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let quantity = system.state_quantity(place);
+        let unit = unit_after(quantity.and_then(|quantity| study.units().unit(quantity)));
         let _ = writeln!(text, "  {:<width$}  {}{unit}", names[place], figure(*value));
     }
     if names.len() > MOST_NUMBERS {

@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 
 use super::Presented;
 use super::system::{ListedMotion, motions};
-use super::table::{TextTable, figure, in_hertz, in_rpm};
+use super::table::{TextTable, figure, figure_in_units, in_hertz, in_rpm};
 use crate::complaint::Failure;
 use crate::disc_units::in_units_of_study;
 use crate::picture;
@@ -153,10 +153,7 @@ fn speed_in_words(study: &DiscStudy) -> String {
 fn table(study: &SystemStudy, done: &SlidingStability) -> String {
     let upper = done.spectrum.motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
     let mut text = motions(study.units(), ListedMotion::Damped, upper);
-    let with = |quantity: Quantity, value: f64| {
-        let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
-        format!("{}{unit}", figure(value))
-    };
+    let with = |quantity, value| figure_in_units(study.units(), quantity, value);
     for (contact, found) in study.system().contacts.iter().zip(&done.contacts) {
         let _ = write!(
             text,

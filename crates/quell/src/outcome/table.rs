@@ -3,6 +3,7 @@
 use quell_model::units::Quantity;
 
 use crate::study::{DiscStudy, UnitSystem};
+use crate::words::unit_after;
 
 /// Digits of a number in a table.
 const DIGITS: usize = 7;
@@ -42,8 +43,7 @@ pub(super) fn in_rpm(study: &DiscStudy, speed: f64) -> String {
 
 /// A number with [`DIGITS`] significant digits and its unit.
 pub(super) fn figure_in_units(units: UnitSystem, quantity: Quantity, value: f64) -> String {
-    let unit = units.unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{}{unit}", figure(value))
+    figure(value) + &unit_after(units.unit(quantity))
 }
 
 /// A number with [`DIGITS`] significant digits.

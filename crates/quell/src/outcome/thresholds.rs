@@ -15,6 +15,7 @@ use crate::plot::Figure;
 use crate::run::thresholds::curves::{Curves, kind_in_words};
 use crate::run::thresholds::{TRIED, Thresholds, events_in_words, side};
 use crate::study::{SystemSetup, SystemStudy};
+use crate::words::unit_after;
 
 impl Presented<SystemSetup> for Thresholds {
     const NAME: &'static str = "thresholds";
@@ -33,8 +34,7 @@ impl Presented<SystemSetup> for Thresholds {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
-        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let unit = unit_after(study.unit_of(&self.request.parameter));
         let (path, (from, to)) = (&self.request.parameter, self.request.window);
         let [from, to] = [from, to].map(|value| format!("{}{unit}", figure(value)));
         let mut text = format!("\n{path} from {from} to {to}, {}:\n", self.subject());

@@ -13,6 +13,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::waveforms::{COLUMNS, ComparedWaveform, CostColumn, RankedBy, WaveformComparison};
 use crate::study::{SystemSetup, SystemStudy};
+use crate::words::unit_after;
 
 impl Presented<SystemSetup> for WaveformComparison {
     const NAME: &'static str = "waveforms";
@@ -91,7 +92,7 @@ fn table(done: &WaveformComparison, unit_of: impl Fn(Quantity) -> Option<&'stati
 
 /// Why values are missing, and where larger amplitudes destabilise.
 fn notes(done: &WaveformComparison, unit: Option<&str>) -> String {
-    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+    let unit = unit_after(unit);
     let of = |row: &ComparedWaveform| {
         let averaged = row.averaged.as_ref().err().map(ToString::to_string);
         let power = row.unit.as_ref().err();

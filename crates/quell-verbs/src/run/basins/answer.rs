@@ -11,7 +11,7 @@ use crate::run::system::attractor::{VERDICTS, in_words, put_attractor, verdict_c
 use crate::run::system::of_runs::beyond_laws;
 use crate::run::system::value_at;
 use crate::study::SystemStudy;
-use crate::words::{capital, digits, plural, quantity_at, quantity_is};
+use crate::words::{capital, digits, plural, quantity_at, quantity_is, unit_after};
 
 /// The verb for a start that ends without slow motion, singular and plural. Under a dither in the band of the vibration
 /// itself no response is quiet.
@@ -197,8 +197,7 @@ impl Basins {
     /// The starts in words.
     pub fn starts_in_words(&self, study: &SystemStudy) -> String {
         let axes = [0, 1].map(|axis| {
-            let unit = Some(self.unit(study, axis)).filter(|unit| *unit != "1");
-            let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+            let unit = unit_after(Some(self.unit(study, axis)));
             let (from, to) = self.windows[axis];
             format!("{} from {} to {}{unit}", self.names[axis], digits(from), digits(to))
         });

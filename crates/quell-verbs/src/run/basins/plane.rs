@@ -55,7 +55,8 @@ pub(super) fn places(
 /// The window of a number of the state: centred on steady sliding. Of one mass it reaches as far as its static friction holds it and one
 /// and a half times as far as the surface takes it in 1/ω₀, in displacement and velocity alike. Of others its reach is the largest
 /// displacement of steady sliding, or one and a half times what the fastest surface covers in 1/ω of the vibration; that of a velocity is
-/// this reach, or a fifth of the displacement, times ω.
+/// this reach, or a fifth of the displacement, times ω. Where nothing vibrates ω is 1 in the units of the study: the window is printed, and
+/// given with `--plane` where it does not suit.
 pub(super) fn window(system: &System, start: &[f64], place: usize) -> (f64, f64) {
     let size = system.structure.size();
     let is_velocity = system.structure.mechanical().is_some() && place >= size;

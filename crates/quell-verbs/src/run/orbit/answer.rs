@@ -11,9 +11,10 @@ use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::actuator::beyond_actuator;
+use crate::run::system::in_units;
 use crate::run::system::of_runs::beyond_laws;
 use crate::study::SystemStudy;
-use crate::words::{capital, digits, plural};
+use crate::words::{capital, plural};
 
 /// Groups of contacts that a sentence describes.
 const MOST_GROUPS: usize = 3;
@@ -23,12 +24,6 @@ const MOST_ROWS: usize = 64;
 
 /// What a contact does, as words with their codes.
 const PHASES: [(u8, &str); 3] = [(0, "slip"), (1, "stick"), (2, "open")];
-
-/// A quantity with its unit.
-fn with_unit(study: &SystemStudy, quantity: Quantity, value: f64) -> String {
-    let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{}{unit}", digits(value))
-}
 
 /// A count as text: "once", "twice", "3 times".
 fn times(count: usize) -> String {
@@ -120,7 +115,7 @@ fn verdict_in_words(orbit: &Orbit) -> &'static str {
 /// A motion in two sentences.
 pub fn sentence(study: &SystemStudy, found: &FoundMotion) -> String {
     let orbit = &found.orbit;
-    let period = with_unit(study, Quantity::Time, orbit.period);
+    let period = in_units(study.units(), Quantity::Time, orbit.period);
     let subject = match &found.by {
         FoundBy::Continuation if found.multiple == 1 => "The base response".to_owned(),
         FoundBy::Continuation | FoundBy::Shooting => "The periodic motion".to_owned(),

@@ -24,7 +24,7 @@ use crate::run::system::attractor::local_verdict;
 use crate::run::system::has_equations;
 use crate::status::Status;
 use crate::study::{DiscStudy, ParameterId, SystemStudy, UnitSystem};
-use crate::words::more_digits;
+use crate::words::{more_digits, unit_after};
 
 /// A growth rate with its verdict.
 #[derive(Clone, Debug, PartialEq)]
@@ -206,9 +206,7 @@ impl SampledKind for SystemStudy {
     }
 
     fn force_in_words(&self, force: f64) -> String {
-        let unit =
-            self.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
-        more_digits(force) + &unit
+        more_digits(force) + &unit_after(self.units().unit(Quantity::Force))
     }
 
     fn unit_of_rates(&self) -> (&'static str, f64) {

@@ -22,7 +22,7 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::needs::StudyVerb;
 use crate::study::{SystemStudy, UnitSystem};
-use crate::words::{digits, more_digits};
+use crate::words::{digits, more_digits, unit_after};
 
 /// The failure of a verb with its reason.
 pub(in crate::run) fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
@@ -88,20 +88,17 @@ pub fn frequency_in_words(units: UnitSystem, frequency: f64) -> String {
 
 /// A quantity with its unit.
 pub fn in_units(units: UnitSystem, quantity: Quantity, value: f64) -> String {
-    let unit = units.unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{}{unit}", digits(value))
+    digits(value) + &unit_after(units.unit(quantity))
 }
 
 /// A value of the number at a path with its unit.
 pub(crate) fn value_at(study: &SystemStudy, path: &str, value: f64) -> String {
-    let unit = study.unit_of(path).filter(|unit| *unit != "1");
-    format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+    digits(value) + &unit_after(study.unit_of(path))
 }
 
 /// [`value_at`] with more digits, for values that are close to each other.
 pub(crate) fn value_closely_at(study: &SystemStudy, path: &str, value: f64) -> String {
-    let unit = study.unit_of(path).filter(|unit| *unit != "1");
-    format!("{}{}", more_digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+    more_digits(value) + &unit_after(study.unit_of(path))
 }
 
 /// A number of a study with its unit; a time in seconds where plain times of its options are.

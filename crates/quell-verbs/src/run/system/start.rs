@@ -11,7 +11,7 @@ use crate::dataset::{Array, Dataset};
 use crate::nearest;
 use crate::quantity;
 use crate::study::{SystemStart, SystemStudy, UnitSystem};
-use crate::words::digits;
+use crate::words::{digits, unit_after};
 
 /// Numbers of a state by their places in it.
 pub type StateNumbers = Vec<(usize, f64)>;
@@ -215,8 +215,7 @@ fn listed(study: &SystemStudy, numbers: &StateNumbers) -> String {
     let names = study.system().state_names();
     let given = numbers.iter().map(|(place, value)| {
         let quantity = study.system().state_quantity(*place);
-        let unit = quantity.and_then(|quantity| study.units().unit(quantity));
-        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let unit = unit_after(quantity.and_then(|quantity| study.units().unit(quantity)));
         format!("{} = {}{unit}", names[*place], digits(*value))
     });
     given.collect::<Vec<_>>().join(", ")

@@ -13,7 +13,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::system::tracked::TrackedStability;
 use crate::study::{SystemSetup, SystemStudy};
-use crate::words::plural;
+use crate::words::{plural, unit_after};
 use quell_linear::growth::Verdict;
 
 impl Presented<SystemSetup> for TrackedStability {
@@ -34,8 +34,7 @@ impl Presented<SystemSetup> for TrackedStability {
 
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
-        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
-        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let unit = unit_after(study.unit_of(&self.request.parameter));
         let shown = self.tracked.thresholds.iter().map(|found| found.value);
         let shown = shown.chain(self.rests.iter().map(|rest| rest.value));
         let values = width_of(shown, &unit);

@@ -276,12 +276,11 @@ impl TrackedStability {
 
 /// A range of a parameter in words.
 fn between(study: &SystemStudy, path: &str, (from, to): (f64, f64)) -> String {
-    let unit = study.unit_of(path).filter(|unit| *unit != "1");
-    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+    let to_in_words = value_at(study, path, to);
     if from == to {
-        return format!("at the {}", quantity_is(path, &format!("{}{unit}", digits(from))));
+        return format!("at the {}", quantity_is(path, &to_in_words));
     }
-    format!("for the {} from {} to {}{unit}", quantity_at(path), digits(from), digits(to))
+    format!("for the {} from {} to {to_in_words}", quantity_at(path), digits(from))
 }
 
 /// One threshold; `unit` is that of the parameter.
