@@ -160,6 +160,20 @@ pub fn with_lanes<W: LaneWork>(set: InstructionSet, work: W) -> W::Output {
     work.run::<f64>()
 }
 
+/// Runs `work` in four lanes if the machine supports them, else gives it back: for numbers of one run side by side, whose code has
+/// another form with the same bits.
+///
+/// # Errors
+/// The work, on a machine without AVX2.
+#[inline]
+pub fn only_in_four_lanes<W: LaneWork>(work: W) -> Result<W::Output, W> {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        return Ok(simd.vectorize(InLanes::<W, Four>(work, std::marker::PhantomData)));
+    }
+    Err(work)
+}
+
 /// Implements [`Lane`] for a vector of pulp.
 #[cfg(target_arch = "x86_64")]
 macro_rules! vector_lane {
@@ -174,8 +188,8 @@ macro_rules! vector_lane {
             #[expect(unsafe_code, reason = "the type is private and only used inside `vectorize`")]
             fn token() -> pulp::x86::$token {
                 // SAFETY: the type cannot be named outside this file, and in this file
-                // only `with_lanes` passes it to work, inside `vectorize` of a token that
-                // `try_new` has checked.
+                // only `with_lanes` and `only_in_four_lanes` pass it to work, inside
+                // `vectorize` of a token that `try_new` has checked.
                 unsafe { pulp::x86::$token::new_unchecked() }
             }
 
@@ -397,6 +411,16 @@ mod tests {
             let mut groups: Vec<V> = self.0.chunks(V::LANES).map(V::load).collect();
             groups[self.1 / V::LANES].set_lane(self.1 % V::LANES, 100.0);
             (0..LANES).map(|place| groups[place / V::LANES].lane(place % V::LANES)).collect()
+        }
+    }
+
+    #[test]
+    fn four_lanes_have_the_bits_of_the_baseline() {
+        let a = std::array::from_fn(|lane| (lane as f64 - 7.3) * 1.37);
+        let b = std::array::from_fn(|lane| 40.0 / (lane as f64 + 0.7));
+        match only_in_four_lanes(Operations(&a, &b)) {
+            Ok(bits) => assert_eq!(bits, Operations(&a, &b).run::<f64>()),
+            Err(_) => assert!(!InstructionSet::Avx2.is_available()),
         }
     }
 

@@ -9,6 +9,7 @@ use super::guards::Guards;
 use super::observer::{MotionObserver, MotionSegment, SegmentSeries};
 use super::own_state;
 use super::phase::{ContactNow, ContactPhase};
+use super::plain_contacts::run_to_end;
 use super::selection::first_minor_not_positive;
 use super::series::StepSeries;
 use super::state::{ContactEnd, MotionEnd, MotionStart};
@@ -141,9 +142,7 @@ impl<'a> MotionRun<'a> {
 
     /// Runs to the end from where it is.
     pub(super) fn run_on(mut self) -> Result<MotionEnd, MotionStopped> {
-        while !self.is_over() {
-            self.step()?;
-        }
+        run_to_end(&mut self)?;
         self.end()
     }
 
@@ -188,7 +187,7 @@ impl<'a> MotionRun<'a> {
     }
 
     /// One pass of the loop: it advances time or changes contacts.
-    fn step(&mut self) -> MotionProgress {
+    pub(super) fn step(&mut self) -> MotionProgress {
         let room = self.prepare()?;
         let expanded = self.expand(room.longest, room.room);
         self.accept(expanded, room)

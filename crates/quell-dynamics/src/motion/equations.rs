@@ -16,6 +16,7 @@ use quell_numerics::matrix::Matrix;
 
 use super::contact_equation::ContactEquation;
 use super::own_state::OwnState;
+use super::plain_contacts::PlainEquations;
 use super::rates::{self, FastestRates};
 use super::rows::{RowEntries, StateMatrix, StateRow};
 use super::speed_terms::SpeedMatrices;
@@ -52,6 +53,8 @@ pub(super) struct MotionEquations {
     pub(super) follower: Matrix,
     /// Whether a contact has a slope row.
     pub(super) follows: bool,
+    /// The same for vectors, if the system is small and its contacts are plain.
+    pub(super) plain: Option<PlainEquations>,
 }
 
 /// What varies in time, along one run.
@@ -196,7 +199,7 @@ impl MotionEquations {
             InputTarget::Force(row) => Some(column(row)),
             _ => None,
         });
-        let pushes = pushes.collect::<Result<_, _>>()?;
+        let pushes = pushes.collect::<Result<Vec<_>, _>>()?;
         let constant = column(system.structure.force())?.dense(size);
         let count = contacts.len();
         let product = |of: fn(&ContactEquation) -> &RowEntries| {
@@ -213,6 +216,10 @@ impl MotionEquations {
         let rates = FastestRates::of(&system.structure, closed, &contacts);
         let follows = contacts.iter().any(|contact| !contact.slope.is_empty());
         let matrix = StateMatrix::of(&matrix);
+        let plain = match &by_speed {
+            None => PlainEquations::of(&matrix, &constant, &pushes, &contacts),
+            Some(_) => None,
+        };
         Ok(Self {
             size,
             structure_size,
@@ -225,6 +232,7 @@ impl MotionEquations {
             coupling,
             follower,
             follows,
+            plain,
         })
     }
 }

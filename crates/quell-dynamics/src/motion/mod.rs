@@ -16,6 +16,7 @@
 //! | `equations`, `contact_equation`, `rows`, `rates` | a system as the engine needs it |
 //! | `variation`, `change_series` | small changes of the initial state |
 //! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
+//! | `plain_contacts` | the steps of few coordinates with plain contacts, in vectors |
 //! | `own_state`, `own_friction`, `own_events` | contacts with a state of their own: elastic sliders and bristles |
 //! | `departure` | how a number that is zero leaves zero |
 //! | `contact_masks` | what each contact does during a step, in every lane |
@@ -52,6 +53,7 @@ mod own_events;
 mod own_friction;
 mod own_state;
 mod phase;
+mod plain_contacts;
 mod rates;
 mod reading_sampler;
 mod row_meter;

@@ -61,6 +61,11 @@ impl RowEntries {
         sum
     }
 
+    /// All numbers over at most [`SMALL`] states, and zeros after them.
+    pub(super) fn few(&self) -> &[f64; SMALL] {
+        &self.dense
+    }
+
     /// Σ |rᵢxᵢ|, which bounds the rounding of [`RowEntries::dot`].
     pub(super) fn size_at(&self, state: &[f64]) -> f64 {
         self.pairs().map(|(place, value)| (value * state[place]).abs()).sum()

@@ -188,13 +188,7 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
         let (mut last, mut previous) = (zero, zero);
         let states = &self.series.states[..(ORDER + 1) * size];
         for (i, kept) in self.series.scales[..size].iter_mut().enumerate() {
-            let mut scale = states[4 * size + i].abs();
-            for k in (0..4).rev() {
-                scale = (scale * limit.time_scale).max(states[k * size + i].abs());
-            }
-            scale = scale.max(V::splat(FORGOTTEN) * *kept);
-            *kept = scale;
-            let inverse = scale.map(|scale| if scale > LEAST_SCALE { 1.0 / scale } else { 0.0 });
+            let inverse = with_scale(kept, limit.time_scale, |k| states[k * size + i].abs());
             // A number that is not one is not the largest.
             last = (states[ORDER * size + i].abs() * inverse).max(last);
             previous = (states[(ORDER - 1) * size + i].abs() * inverse).max(previous);
@@ -234,6 +228,19 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
         }
         step_length(limit.tolerance, last, previous, ORDER)
     }
+}
+
+/// Takes the magnitude of a number of the state, whose coefficients have the given absolute values, into what is kept of it. Returns the
+/// inverse, 0 for a number that vanishes.
+#[inline(always)]
+pub(super) fn with_scale<V: Lane>(kept: &mut V, time_scale: V, term: impl Fn(usize) -> V) -> V {
+    let mut scale = term(4);
+    for k in (0..4).rev() {
+        scale = (scale * time_scale).max(term(k));
+    }
+    scale = scale.max(V::splat(FORGOTTEN) * *kept);
+    *kept = scale;
+    scale.map(|scale| if scale > LEAST_SCALE { 1.0 / scale } else { 0.0 })
 }
 
 /// 0 where `zeros` is positive, which is so in some lane only if `any`.

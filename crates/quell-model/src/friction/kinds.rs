@@ -6,9 +6,9 @@ use quell_numerics::lane::Lane;
 
 use super::law::AnyLaw;
 use super::{
-    BranchSeries, Bristles, Coulomb, Decreasing, Expression, LawParameters, LawSeries, LawVisitor,
-    Lugre, NumericLaw, Otherwise, Samples, SlidingLaw, SlipRange, Stribeck, StribeckExponential,
-    Surroundings,
+    BranchSeries, Bristles, ConstantsVisitor, Coulomb, Decreasing, Expression, LawParameters,
+    LawSeries, LawVisitor, Lugre, NumericLaw, Otherwise, Samples, SlidingLaw, SlipRange, Stribeck,
+    StribeckExponential, Surroundings,
 };
 use crate::parameter::Parameter;
 use crate::units::{Quantity, Scales};
@@ -242,6 +242,14 @@ macro_rules! recurrences {
                         <$kind as LawSeries>::series::<V, N>(constants, sign, w0),
                     ),)+
                 }
+            }
+        }
+
+        impl<V: Lane> FrictionConstants<V> {
+            /// Passes the constants to `visitor`, which is compiled for each recurrence.
+            #[inline(always)]
+            pub fn visit<T: ConstantsVisitor<V>>(&mut self, visitor: T) -> T::Output {
+                match self { $(Self::$kind(constants) => visitor.visit::<$kind>(constants)),+ }
             }
         }
 

@@ -167,6 +167,14 @@ pub trait AnyLaw {
     fn recurring(&self) -> &dyn Any;
 }
 
+/// An operation on the constants of a law's recurrence in each lane, for code that is compiled per recurrence.
+pub trait ConstantsVisitor<V: Lane> {
+    /// Result of the operation.
+    type Output;
+    /// Applies the operation to the constants of laws with the recurrence of `L`.
+    fn visit<L: LawSeries>(self, constants: &mut L::Constants<V>) -> Self::Output;
+}
+
 /// An operation on the concrete law, for code that is compiled per recurrence.
 pub trait LawVisitor {
     /// Result of the operation.

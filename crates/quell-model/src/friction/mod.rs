@@ -30,7 +30,9 @@ pub use coulomb::{Coulomb, CoulombConstants, CoulombSeries};
 pub use decreasing::{Decreasing, DecreasingConstants, DecreasingSeries};
 pub use expression::Expression;
 pub use kinds::{Friction, FrictionConstants, FrictionSeries, LawKind};
-pub use law::{AnyLaw, LawParameters, LawSeries, LawVisitor, Otherwise, SlidingLaw};
+pub use law::{
+    AnyLaw, ConstantsVisitor, LawParameters, LawSeries, LawVisitor, Otherwise, SlidingLaw,
+};
 pub use lugre::Lugre;
 pub use numeric::NumericLaw;
 pub use range::{RangeLimit, SlipRange, Surroundings};
