@@ -13,7 +13,7 @@ use crate::simulation::{ORDER, RECIPROCALS, Series};
 
 /// Nodes of the rule on a segment. It is exact up to degree 2·14 − 1 in the product of two series, each of which is cut at [`ORDER`]:
 /// the terms of the product from there on are below those that the series leave out.
-const NODES: usize = 14;
+pub(super) const NODES: usize = 14;
 
 const _: () = assert!(2 * NODES > ORDER + 1, "no term is lost that the series have");
 
@@ -121,7 +121,7 @@ impl LaneWork for ContactsOnSegment<'_, '_> {
     fn run<V: Lane>(self) {
         let Self { sums, segment } = self;
         let duration = segment.duration();
-        let moments = PLACES.map(|place| place * duration);
+        let moments = moments_of(duration);
         for (contact, sums) in sums.iter_mut().enumerate() {
             match segment.phase(contact) {
                 ContactPhase::Open => {
@@ -192,7 +192,7 @@ fn greater(a: f64, b: f64) -> f64 {
 }
 
 /// The nodes of the rule on a segment, and its ends.
-type NodeTimes = [f64; MOMENTS];
+pub(super) type NodeTimes = [f64; MOMENTS];
 
 /// As many as the widest lanes, or a multiple.
 const MOMENTS: usize = MOST_LANES;
@@ -209,9 +209,15 @@ fn with_ends(of_nodes: &[f64; NODES], of_ends: [f64; 2]) -> NodeTimes {
     all
 }
 
+/// The nodes of the rule on a segment of this length, and its ends.
+#[inline(always)]
+pub(super) fn moments_of(duration: f64) -> NodeTimes {
+    PLACES.map(|place| place * duration)
+}
+
 /// Mean over a segment of what is known at its moments.
 #[inline(always)]
-fn mean_of(values: &NodeTimes) -> f64 {
+pub(super) fn mean_of(values: &NodeTimes) -> f64 {
     // Sums that do not wait for each other, the same ones in lanes of any width.
     let mut sums = [0.0; 4];
     let weights = WEIGHTS.as_chunks::<4>().0;
@@ -225,7 +231,7 @@ fn mean_of(values: &NodeTimes) -> f64 {
 
 /// A Taylor polynomial at all moments.
 #[inline(always)]
-fn values_at<V: Lane>(series: &Series, moments: &NodeTimes) -> NodeTimes {
+pub(super) fn values_at<V: Lane>(series: &Series, moments: &NodeTimes) -> NodeTimes {
     let mut values = [0.0; MOMENTS];
     let groups = values.chunks_exact_mut(V::LANES).zip(moments.chunks_exact(V::LANES));
     for (values, moments) in groups {

@@ -5,6 +5,7 @@ use quell_model::friction::FrictionConstants;
 
 use super::equations::{Forcings, MotionEquations};
 use super::expansion::{ExpandedStep, StepExpansion};
+use super::few::Few;
 use super::guards::Guards;
 use super::observer::{MotionObserver, MotionSegment, SegmentSeries};
 use super::own_state;
@@ -210,7 +211,7 @@ impl<'a> MotionRun<'a> {
         let before = self.clock;
         let triggers = match &reached {
             Some(first) => self.guards().together(first, self.time_scale),
-            None => Vec::new(),
+            None => Few::new(),
         };
         if duration > 0.0 {
             self.advance(duration, room, stop)?;
@@ -253,7 +254,7 @@ impl<'a> MotionRun<'a> {
             self.share_forces();
         }
         let tilts = self.tilts();
-        let sticking = || (0..self.now.len()).filter(|c| self.now[*c].sticks()).collect::<Vec<_>>();
+        let sticking = || (0..self.now.len()).filter(|c| self.now[*c].sticks()).collect::<Few<_>>();
         if tilted {
             let members = sticking();
             self.check_unique(&members, &tilts)?;
@@ -273,14 +274,17 @@ impl<'a> MotionRun<'a> {
 
     /// Lets dependent sticking contacts share their forces: those whose share would exceed its bound stand at it.
     fn share_forces(&mut self) {
-        let members: Vec<usize> = (0..self.now.len()).filter(|c| self.now[*c].sticks()).collect();
+        let members: Few<usize> = (0..self.now.len()).filter(|c| self.now[*c].sticks()).collect();
+        // One that has just reached its bound stays there, although the forces are solved with less accuracy than that of a bound.
+        let at_bounds: Few<(usize, i8)> =
+            members.iter().map(|contact| (*contact, self.now[*contact].saturated)).collect();
         for &contact in &members {
             self.now[contact].saturated = 0;
         }
         if members.len() < 2 {
             return;
         }
-        let moment = self.moment_of(&members, &[]);
+        let moment = self.moment_of(&members, &at_bounds);
         if !moment.is_dependent {
             return;
         }
@@ -297,9 +301,13 @@ impl<'a> MotionRun<'a> {
         }
     }
 
-    pub(super) fn tilts(&self) -> Vec<f64> {
+    pub(super) fn tilts(&self) -> Few<f64> {
+        let contacts = &self.equations.contacts;
+        if !self.equations.follows {
+            return Few::from_elem(0.0, contacts.len());
+        }
         let state = self.series.start();
-        self.equations.contacts.iter().map(|contact| contact.slope.dot(state)).collect()
+        contacts.iter().map(|contact| contact.slope.dot(state)).collect()
     }
 
     /// Refuses a set of contacts whose decision is not unique.
@@ -334,6 +342,7 @@ impl<'a> MotionRun<'a> {
                 series: SegmentSeries::Known {
                     states: &self.series.states,
                     contacts: &self.series.contacts,
+                    pushes: &self.series.pushes,
                 },
                 now: &self.now,
             });

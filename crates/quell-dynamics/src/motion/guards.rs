@@ -1,5 +1,6 @@
 //! The guards of a step: the polynomials whose first root ends it.
 
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::{Lane, horner, partial_product};
 use quell_numerics::polynomial::side_by_side::proof_of_no_root;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
@@ -8,6 +9,7 @@ use super::contact_equation::ContactEquation;
 use super::contact_masks::ContactMasks;
 use super::contact_series::{ContactSeries, SeriesOf};
 use super::equations::MotionEquations;
+use super::few::Few;
 use super::observer::Trigger;
 use super::own_friction::own_speed;
 use super::own_state::{OwnState, OwnStateKind};
@@ -177,8 +179,13 @@ impl<'a> Guards<'a> {
     }
 
     /// Every guard that reaches zero together with the first one, at time `after` of the step.
-    pub(super) fn together(&self, first: &GuardReached, time_scale: f64) -> Vec<GuardReached> {
-        let mut found = Vec::new();
+    pub(super) fn together(&self, first: &GuardReached, time_scale: f64) -> Few<GuardReached> {
+        with_fused_multiply_add(Together { guards: self, first, time_scale })
+    }
+
+    #[inline(always)]
+    fn together_with(&self, first: &GuardReached, time_scale: f64) -> Few<GuardReached> {
+        let mut found = Few::new();
         let mut margin = [0.0; ORDER + 1];
         for contact in 0..self.now.len() {
             for place in 0..GUARDS {
@@ -196,6 +203,21 @@ impl<'a> Guards<'a> {
             }
         }
         found
+    }
+}
+
+struct Together<'g, 'a> {
+    guards: &'g Guards<'a>,
+    first: &'g GuardReached,
+    time_scale: f64,
+}
+
+impl Work for Together<'_, '_> {
+    type Output = Few<GuardReached>;
+
+    #[inline(always)]
+    fn run(self) -> Few<GuardReached> {
+        self.guards.together_with(self.first, self.time_scale)
     }
 }
 

@@ -9,10 +9,10 @@ use quell_linear::series_actuator::{NoSeriesActuator, SeriesActuator};
 use quell_model::System;
 use quell_model::profile::Profile;
 use quell_model::system::{Contact, InputTarget, Structure};
-use quell_numerics::dispatch::{Work, with_fused_multiply_add};
-use quell_numerics::lane::horner;
+use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
+use quell_numerics::lane::{Lane, horner};
 
-use super::contact_meter::RULE;
+use super::contact_meter::{NODES, RULE, mean_of, moments_of, values_at};
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::ContactPhase;
 use super::row_meter::RowRange;
@@ -77,6 +77,8 @@ struct Worker<'s> {
     rows: [RowEntries; 2],
     profile: &'s Profile,
     sign: f64,
+    /// Its number among the forces, if it is one.
+    push: Option<usize>,
     /// The contact without which it does no work.
     contact: Option<usize>,
     /// Of a modulation of a load: an actuator for each wave, and its work.
@@ -91,15 +93,19 @@ struct Worker<'s> {
 pub struct InputMeter<'s> {
     length: f64,
     inputs: Vec<Result<Worker<'s>, NoPower>>,
+    set: InstructionSet,
 }
 
 impl<'s> InputMeter<'s> {
     /// For the inputs of a system.
     pub fn new(system: &'s System) -> Self {
+        let mut pushes = 0..;
         let inputs = system.inputs.iter().map(|input| {
             let Structure::Mechanical(structure) = &system.structure else {
                 return Err(NoPower::FirstOrder);
             };
+            let push =
+                matches!(input.target, InputTarget::Force(_)).then(|| pushes.next()).flatten();
             let (row, sign, contact) = match &input.target {
                 InputTarget::Force(row) => (row, 1.0, None),
                 InputTarget::Friction { .. } => return Err(NoPower::Factor),
@@ -119,9 +125,20 @@ impl<'s> InputMeter<'s> {
                     .collect()
             });
             let (work, series_work) = (0.0, 0.0);
-            Ok(Worker { rows, profile, sign, contact, in_series, series_work, work, extremes })
+            Ok(Worker {
+                rows,
+                profile,
+                sign,
+                push,
+                contact,
+                in_series,
+                series_work,
+                work,
+                extremes,
+            })
         });
-        Self { length: 0.0, inputs: inputs.collect() }
+        let inputs = inputs.collect();
+        Self { length: 0.0, inputs, set: InstructionSet::widest() }
     }
 
     /// The cost of every input; `None` if no time has been measured.
@@ -147,7 +164,7 @@ impl MotionObserver for InputMeter<'_> {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
         self.length += segment.duration();
         for worker in self.inputs.iter_mut().flatten() {
-            with_fused_multiply_add(InputOnSegment { worker, segment });
+            with_lanes(self.set, InputOnSegment { worker, segment });
         }
     }
 }
@@ -157,11 +174,11 @@ struct InputOnSegment<'a, 'b, 's> {
     segment: &'a MotionSegment<'b>,
 }
 
-impl Work for InputOnSegment<'_, '_, '_> {
+impl LaneWork for InputOnSegment<'_, '_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Lane>(self) {
         let Self { worker, segment } = self;
         let duration = segment.duration();
         let [displacement, velocity] = [0, 1].map(|row| segment.row_of(&worker.rows[row]));
@@ -170,18 +187,25 @@ impl Work for InputOnSegment<'_, '_, '_> {
         if worker.contact.is_some_and(open) {
             return;
         }
-        let [nodes, weights] = &*RULE;
-        let mut work = 0.0;
-        for (node, weight) in nodes.iter().zip(weights) {
-            let since = node * duration;
-            let force = wave_force(worker.profile, segment.clock(), since);
-            work = f64::mul_add(weight * duration, force * horner(&velocity, since), work);
+        let moments = moments_of(duration);
+        let mut powers = values_at::<V>(&velocity, &moments);
+        match worker.push.and_then(|push| segment.force(push)) {
+            Some(force) => {
+                let (forces, mean) = (values_at::<V>(force, &moments), worker.profile.mean());
+                powers.iter_mut().zip(&forces).for_each(|(power, force)| *power *= force - mean);
+            }
+            None => {
+                for (power, since) in powers.iter_mut().zip(&moments[..NODES]) {
+                    *power *= wave_force(worker.profile, segment.clock(), *since);
+                }
+            }
         }
-        worker.work = f64::mul_add(worker.sign, work, worker.work);
+        worker.work = f64::mul_add(worker.sign * duration, mean_of(&powers), worker.work);
         let (Some(contact), Some(Ok(actuators))) = (worker.contact, &worker.in_series) else {
             return;
         };
         let load = segment.normal_load(contact);
+        let [nodes, weights] = &*RULE;
         for (node, weight) in nodes.iter().zip(weights) {
             let since = node * duration;
             let time = segment.clock().after(since).time();

@@ -23,6 +23,7 @@
 //! | `change_block`, `law_along_slip` | several changes side by side, and the slope of a law along a slip |
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `lanes` | runs of many systems side by side |
+//! | `few` | lists of the contacts of a moment, which are few |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `one_mass` | runs of systems of one mass, by their own engine |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
@@ -41,6 +42,7 @@ mod engine;
 mod equations;
 mod expansion;
 mod extremes;
+mod few;
 mod guards;
 mod input_meter;
 mod lanes;

@@ -27,7 +27,7 @@ pub struct MotionSegment<'a> {
 #[derive(Clone, Copy)]
 pub(super) enum SegmentSeries<'a> {
     /// In the memory of an engine.
-    Known { states: &'a [f64], contacts: &'a [ContactSeries] },
+    Known { states: &'a [f64], contacts: &'a [ContactSeries], pushes: &'a [Series] },
     /// Of a slipping mass: computed where they are asked for.
     OfMass(&'a MassPiece<'a>),
 }
@@ -122,6 +122,15 @@ impl<'a> MotionSegment<'a> {
             *coefficient = row.dot(state);
         }
         series
+    }
+
+    /// Taylor coefficients of an input that is a force, by its number among these; `None` where the engine does not keep them.
+    #[inline(always)]
+    pub(super) fn force(&self, push: usize) -> Option<&'a Series> {
+        match self.series {
+            SegmentSeries::Known { pushes, .. } => pushes.get(push),
+            SegmentSeries::OfMass(_) => None,
+        }
     }
 
     /// Times after the start at which the slope of a series on the segment changes its sign, in order; none is missed.

@@ -308,6 +308,7 @@ impl<'a> MassView<'a> {
         let series = SegmentSeries::Known {
             states: &self.states,
             contacts: std::slice::from_ref(&self.contact),
+            pushes: &[],
         };
         self.length = duration / self.units.mass.rate();
         let segment = Shown { clock, duration, series, now: &self.now };

@@ -7,6 +7,7 @@
 
 use quell_model::friction::{BranchSeries, ConstantsVisitor, FrictionConstants, LawSeries};
 use quell_numerics::dispatch::{LaneWork, only_in_four_lanes};
+use quell_numerics::for_each_order_below_16;
 use quell_numerics::lane::Lane;
 use quell_numerics::polynomial::side_by_side::proof_of_no_root;
 use quell_numerics::polynomial::step_length;
@@ -25,6 +26,9 @@ use crate::simulation::{ORDER, RECIPROCALS};
 /// Most coordinates, and most contacts.
 const MOST: usize = 4;
 
+/// Most roots of a slip velocity at the start of a step.
+const MOST_ZEROS: usize = 2;
+
 /// A number of each coordinate, or of each contact; zeros in places without one.
 type Numbers = [f64; MOST];
 
@@ -39,7 +43,8 @@ pub(super) struct PlainEquations {
     /// −M⁻¹K, column by column, then −M⁻¹C.
     columns: [Numbers; 2 * MOST],
     constant: Numbers,
-    pushes: Vec<Numbers>,
+    /// The column of the first force, of zeros if there is none, and those of the others.
+    pushes: (Numbers, Vec<Numbers>),
     /// t of all contacts, coordinate by coordinate.
     tangents: [Numbers; MOST],
     /// M⁻¹t, contact by contact.
@@ -87,15 +92,15 @@ impl PlainEquations {
             let place = if j < coordinates { j } else { MOST + j - coordinates };
             columns[place] = filled(lower);
         }
+        let mut pushes = pushes.iter().map(|push| of_velocities(push.few(), coordinates));
+        let first = pushes.next().unwrap_or(Some([0.0; MOST]))?;
+        let pushes = (first, pushes.collect::<Option<_>>()?);
         let mut equations = Self {
             coordinates,
             contacts: count,
             columns,
             constant: of_velocities(constant, coordinates)?,
-            pushes: pushes
-                .iter()
-                .map(|push| of_velocities(push.few(), coordinates))
-                .collect::<Option<_>>()?,
+            pushes,
             tangents: [[0.0; MOST]; MOST],
             along: [[0.0; MOST]; MOST],
             inverse_scales: [0.0; MOST],
@@ -145,25 +150,17 @@ impl LaneWork for PlainRun<'_, '_> {
     fn run<V: Lane>(self) -> MotionProgress {
         let Self(run) = self;
         let equations: &MotionEquations = run.equations;
-        let Some(mut vectors) =
+        let Some(vectors) =
             equations.plain.as_ref().and_then(|plain| PlainVectors::<V>::of(plain, run))
         else {
             return step_by_step(run);
         };
-        while !run.is_over() {
-            let room = run.prepare()?;
-            if vectors.follows(run) {
-                let step = vectors.step(run, room);
-                run.accept(step, room)?;
-            } else {
-                vectors.write_scales(run);
-                let step = run.expand(room.longest, room.room);
-                vectors.read_scales(run);
-                run.accept(step, room)?;
-            }
+        // Places without a coordinate or a contact hold zeros, and cost time alone.
+        if equations.contacts.len().max(run.equations.size / 2) <= 2 {
+            vectors.run::<2>(run)
+        } else {
+            vectors.run::<MOST>(run)
         }
-        vectors.write_scales(run);
-        Ok(())
     }
 }
 
@@ -180,8 +177,15 @@ fn mask(holds: [bool; MOST]) -> [f64; MOST] {
 }
 
 /// What the contacts do during a step.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each says of all contacts whether any needs some work"
+)]
 struct PlainPhases<V> {
-    now: Vec<ContactNow>,
+    /// Whether they are those of the coming step.
+    are_known: bool,
+    /// Whether a slip velocity is zero at the start.
+    any_zeros: bool,
     /// Whether vectors follow: no contact keeps its phase beyond a border or stands at its bound.
     is_plain: bool,
     slips: [bool; MOST],
@@ -194,32 +198,31 @@ struct PlainPhases<V> {
     sign: V,
     /// Multiplicity of the zero of γ at the start.
     zeros: V,
-    most_zeros: usize,
 }
 
 /// The forces of sticking contacts.
 struct PlainHolding<V> {
     /// Of which [`MotionRun::refreshed`].
     refreshed: u64,
-    /// T of all contacts per γ̇ of one of them; the contacts whose conditions are used.
+    /// T of all contacts per γ̇ of one of them: zeros where its condition is not used.
     gains: [V; MOST],
-    independent: [bool; MOST],
-    is_free: [bool; MOST],
-    free: V,
 }
+
+/// Coefficients of the first force, which is zero if there is none, and of the others.
+type PushSeries = (SeriesOf<f64>, Vec<SeriesOf<f64>>);
 
 /// A run in vectors: its numbers, and the series of its last step.
 struct PlainVectors<'e, V: Lane> {
     equations: &'e PlainEquations,
     laws: FrictionConstants<V>,
     phases: PlainPhases<V>,
+    surfaces_vary: bool,
     holding: PlainHolding<V>,
     /// N of the contacts.
     pressed: V,
     /// Scales of displacements and velocities.
     scales: [V; 2],
-    /// Coefficients of the forces.
-    pushes: Vec<SeriesOf<f64>>,
+    pushes: PushSeries,
     series: PlainSeries<V>,
 }
 
@@ -254,10 +257,11 @@ impl<'e, V: Lane> PlainVectors<'e, V> {
             equations,
             laws: FrictionConstants::side_by_side(&laws)?,
             phases: PlainPhases::unknown(),
+            surfaces_vary: !forcings.iter().all(|forcing| forcing.surface.is_constant()),
             holding: PlainHolding::none(),
             pressed: vector(&pressed),
             scales: [zero; 2],
-            pushes: run.series.pushes.clone(),
+            pushes: ([0.0; ORDER + 1], run.series.pushes.iter().skip(1).copied().collect()),
             series: PlainSeries {
                 displacements: states,
                 velocities: states,
@@ -272,6 +276,26 @@ impl<'e, V: Lane> PlainVectors<'e, V> {
         }
         vectors.read_scales(run);
         Some(vectors)
+    }
+
+    /// The run to its end, with as many coordinates and contacts as `N` at most.
+    #[inline(always)]
+    fn run<const N: usize>(mut self, run: &mut MotionRun<'_>) -> MotionProgress {
+        while !run.is_over() {
+            let room = run.prepare()?;
+            if self.follows(run) {
+                let step = self.step::<N>(run, room);
+                run.accept(step, room)?;
+            } else {
+                self.write_scales(run);
+                let step = run.expand(room.longest, room.room);
+                self.read_scales(run);
+                run.accept(step, room)?;
+                self.phases.are_known = false;
+            }
+        }
+        self.write_scales(run);
+        Ok(())
     }
 
     fn read_scales(&mut self, run: &MotionRun<'_>) {
@@ -289,7 +313,7 @@ impl<'e, V: Lane> PlainVectors<'e, V> {
     /// Reads what the contacts do now. Whether vectors follow it.
     #[inline(always)]
     fn follows(&mut self, run: &MotionRun<'_>) -> bool {
-        if self.phases.now != run.now {
+        if !self.phases.are_known {
             self.phases.set(&run.now);
         }
         if self.holding.refreshed != run.refreshed {
@@ -300,14 +324,14 @@ impl<'e, V: Lane> PlainVectors<'e, V> {
 
     /// A step of the run, whose end is in its `scratch`, and whose series are written to it if it is observed or a guard may end it.
     #[inline(always)]
-    fn step(&mut self, run: &mut MotionRun<'_>, room: StepRoom) -> ExpandedStep {
+    fn step<const N: usize>(&mut self, run: &mut MotionRun<'_>, room: StepRoom) -> ExpandedStep {
         self.begin(run);
         let StepRoom { longest, room, .. } = room;
         let MotionRun { tolerance, time_scale, .. } = *run;
         let limit = StepLimit { tolerance, time_scale, longest, room };
-        let Self { equations, laws, phases, holding, pressed, scales, pushes, series } = self;
+        let Self { equations, laws, phases, holding, pressed, scales, pushes, series, .. } = self;
         let (phases, holding, pressed) = (&*phases, &*holding, *pressed);
-        let length = laws.visit(PlainStep {
+        let length = laws.visit(PlainStep::<V, N> {
             equations,
             phases,
             holding,
@@ -319,11 +343,16 @@ impl<'e, V: Lane> PlainVectors<'e, V> {
         });
         let is_clear = series.is_clear(equations, phases, pressed, length);
         if run.watched || !is_clear {
-            series.write(equations, run);
+            series.write::<N>(equations, run);
+        }
+        if let (true, Some((first, others))) = (run.watched, run.series.pushes.split_first_mut()) {
+            *first = pushes.0;
+            others.copy_from_slice(&pushes.1);
         }
         let reached = if is_clear { None } else { run.guards().first(length) };
         let duration = reached.map_or(length, |reached| reached.after);
         series.end(duration, equations.coordinates, &mut run.scratch);
+        self.phases.are_known = reached.is_none() && !self.phases.any_zeros;
         ExpandedStep { duration, reached }
     }
 
@@ -333,11 +362,14 @@ impl<'e, V: Lane> PlainVectors<'e, V> {
         let (upper, lower) = run.series.start().split_at(self.equations.coordinates);
         self.series.displacements[0] = vector(upper);
         self.series.velocities[0] = vector(lower);
-        for (series, forcing) in self.pushes.iter_mut().zip(&run.forcings.pushes) {
-            *series = forcing.series(run.clock);
+        if let Some((first, others)) = run.forcings.pushes.split_first() {
+            self.pushes.0 = first.series(run.clock);
+            for (series, forcing) in self.pushes.1.iter_mut().zip(others) {
+                *series = forcing.series(run.clock);
+            }
         }
-        for (place, forcing) in run.forcings.contacts.iter().enumerate() {
-            if !forcing.surface.is_constant() {
+        if self.surfaces_vary {
+            for (place, forcing) in run.forcings.contacts.iter().enumerate() {
                 self.series.set_surface(place, &forcing.surface.series(run.clock));
             }
         }
@@ -347,16 +379,18 @@ impl<'e, V: Lane> PlainVectors<'e, V> {
 /// Writes the first numbers of a vector.
 #[inline(always)]
 fn write<V: Lane>(numbers: V, out: &mut [f64]) {
-    let mut all = [0.0; MOST];
-    numbers.store(&mut all);
-    out.copy_from_slice(&all[..out.len()]);
+    // One by one, because a copy of so few is a call.
+    for (place, out) in out.iter_mut().enumerate().take(MOST) {
+        *out = numbers.lane(place);
+    }
 }
 
 impl<V: Lane> PlainPhases<V> {
     fn unknown() -> Self {
         let zero = V::splat(0.0);
         Self {
-            now: Vec::new(),
+            are_known: false,
+            any_zeros: false,
             is_plain: false,
             slips: [false; MOST],
             any_slips: false,
@@ -365,23 +399,19 @@ impl<V: Lane> PlainPhases<V> {
             sticking: zero,
             sign: zero,
             zeros: zero,
-            most_zeros: 0,
         }
     }
 
     #[inline(always)]
     fn set(&mut self, now: &[ContactNow]) {
-        self.now.clear();
-        self.now.extend_from_slice(now);
         let mut sign = [1.0; MOST];
         let (mut zeros, mut sticks) = ([0.0; MOST], [false; MOST]);
         self.slips = [false; MOST];
-        self.is_plain = true;
-        self.most_zeros = 0;
+        (self.are_known, self.any_zeros, self.is_plain) = (true, false, true);
         for (place, now) in now.iter().enumerate().take(MOST) {
             self.is_plain &= !now.kept && now.saturated == 0;
             zeros[place] = now.slip_zeros as f64;
-            self.most_zeros = self.most_zeros.max(now.slip_zeros);
+            self.any_zeros |= now.slip_zeros > 0;
             match now.phase {
                 ContactPhase::Slip(direction) => {
                     self.slips[place] = true;
@@ -401,39 +431,33 @@ impl<V: Lane> PlainPhases<V> {
 
 impl<V: Lane> PlainHolding<V> {
     fn none() -> Self {
-        let zero = V::splat(0.0);
-        let nobody = [false; MOST];
-        Self { refreshed: 0, gains: [zero; MOST], independent: nobody, is_free: nobody, free: zero }
+        Self { refreshed: 0, gains: [V::splat(0.0); MOST] }
     }
 
     fn set(&mut self, run: &MotionRun<'_>) {
-        *self = Self { refreshed: run.refreshed, ..Self::none() };
         let mut gains = [[0.0; MOST]; MOST];
         for (held, shares) in run.stuck.gains() {
-            self.is_free[held] = true;
             for (other, gain) in shares {
-                self.independent[other] = true;
                 gains[other][held] = gain;
             }
         }
-        self.gains = gains.map(|column| V::load(&column));
-        self.free = V::load(&mask(self.is_free));
+        *self = Self { refreshed: run.refreshed, gains: gains.map(|column| V::load(&column)) };
     }
 }
 
 /// Computes the series of a step, for laws of one recurrence.
-struct PlainStep<'s, V> {
+struct PlainStep<'s, V, const N: usize> {
     equations: &'s PlainEquations,
     phases: &'s PlainPhases<V>,
     holding: &'s PlainHolding<V>,
     pressed: V,
     scales: &'s mut [V; 2],
-    pushes: &'s [SeriesOf<f64>],
+    pushes: &'s PushSeries,
     series: &'s mut PlainSeries<V>,
     limit: StepLimit,
 }
 
-impl<V: Lane> ConstantsVisitor<V> for PlainStep<'_, V> {
+impl<V: Lane, const N: usize> ConstantsVisitor<V> for PlainStep<'_, V, N> {
     /// The length of the step.
     type Output = f64;
 
@@ -442,23 +466,35 @@ impl<V: Lane> ConstantsVisitor<V> for PlainStep<'_, V> {
         let inverse_scale = V::load(&self.equations.inverse_scales);
         let mut branch = self.branch::<L>(constants, inverse_scale);
         let drag = branch.slope() * inverse_scale * self.pressed;
-        for k in 0..=ORDER {
-            self.order(k, &mut branch, drag, inverse_scale);
+        self.order(0, &mut branch, drag, inverse_scale);
+        if const { N == 2 } {
+            const { assert!(ORDER == 16, "unrolled up to order 16") };
+            for_each_order_below_16!(J, {
+                const K: usize = J + 1;
+                self.order(K, &mut branch, drag, inverse_scale);
+            });
+        } else {
+            // In a third of the time to compile.
+            for k in 1..=ORDER {
+                self.order(k, &mut branch, drag, inverse_scale);
+            }
         }
         self.length(&branch)
     }
 }
 
-impl<V: Lane> PlainStep<'_, V> {
+#[expect(
+    clippy::needless_range_loop,
+    reason = "loops over indices are unrolled, with constant lanes; those over iterators are not"
+)]
+impl<V: Lane, const N: usize> PlainStep<'_, V, N> {
     /// Σ over the coordinates of a row of each contact times one vector.
     #[inline(always)]
     fn read(&self, vector: V) -> V {
         let tangents = &self.equations.tangents;
         let mut sum = V::load(&tangents[0]) * V::splat(vector.lane(0));
-        for (j, tangent) in tangents.iter().enumerate().skip(1) {
-            if j < self.equations.coordinates {
-                sum = V::load(tangent).mul_add(V::splat(vector.lane(j)), sum);
-            }
+        for j in 1..N {
+            sum = V::load(&tangents[j]).mul_add(V::splat(vector.lane(j)), sum);
         }
         sum
     }
@@ -484,7 +520,10 @@ impl<V: Lane> PlainStep<'_, V> {
         let velocity = self.series.velocities[k];
         let mut rates = self.free_rates(k);
         let slip = self.series.surfaces[k] - self.read(velocity);
-        let rests = phases.sticking.max(phases.zeros - V::splat(k as f64));
+        let mut rests = phases.sticking;
+        if k < MOST_ZEROS {
+            rests = rests.max(phases.zeros - V::splat(k as f64));
+        }
         let slip = rests.where_positive(zero, slip);
         let scaled = slip * inverse_scale;
         self.series.slip[k] = slip;
@@ -498,11 +537,12 @@ impl<V: Lane> PlainStep<'_, V> {
                 drag.mul_add(slip, branch.lower(k, &self.series.scaled) * self.pressed)
             };
             friction = phases.slipping.where_positive(force, zero);
-            rates = self.acted(rates, friction, &phases.slips);
+            rates = self.acted(rates, friction);
         }
         if phases.any_sticks {
-            friction = self.held(k, rates, friction);
-            rates = self.acted(rates, friction, &self.holding.is_free);
+            let force = self.held(k, rates);
+            rates = self.acted(rates, force);
+            friction = phases.sticking.where_positive(force, friction);
         }
         self.series.friction[k] = friction;
         let inverse = V::splat(RECIPROCALS[k + 1]);
@@ -513,50 +553,46 @@ impl<V: Lane> PlainStep<'_, V> {
     /// ẍ of order k without friction.
     #[inline(always)]
     fn free_rates(&self, k: usize) -> V {
-        let PlainEquations { coordinates, columns, constant, pushes, .. } = self.equations;
+        let PlainEquations { columns, constant, pushes, .. } = self.equations;
         let mut rates = V::splat(0.0);
-        let (stiffness, damping) = columns.split_at(MOST);
-        for (half, state) in
-            [(stiffness, self.series.displacements[k]), (damping, self.series.velocities[k])]
-        {
-            for (j, column) in half.iter().enumerate() {
-                if j < *coordinates {
-                    rates = V::load(column).mul_add(V::splat(state.lane(j)), rates);
-                }
-            }
+        let (displacement, velocity) = (self.series.displacements[k], self.series.velocities[k]);
+        for j in 0..N {
+            rates = V::load(&columns[j]).mul_add(V::splat(displacement.lane(j)), rates);
+        }
+        for j in 0..N {
+            rates = V::load(&columns[MOST + j]).mul_add(V::splat(velocity.lane(j)), rates);
         }
         if k == 0 {
             rates = rates + V::load(constant);
         }
-        for (push, series) in pushes.iter().zip(self.pushes) {
+        let (first, others) = pushes;
+        rates = V::load(first).mul_add(V::splat(self.pushes.0[k]), rates);
+        for (push, series) in others.iter().zip(&self.pushes.1) {
             rates = V::load(push).mul_add(V::splat(series[k]), rates);
         }
         rates
     }
 
-    /// Rates with the friction of some contacts, one after the other.
+    /// Rates with the friction of the contacts, one after the other.
     #[inline(always)]
-    fn acted(&self, mut rates: V, friction: V, which: &[bool; MOST]) -> V {
-        for (place, along) in self.equations.along.iter().enumerate() {
-            if which[place] {
-                rates = V::load(along).mul_add(V::splat(friction.lane(place)), rates);
-            }
+    fn acted(&self, mut rates: V, friction: V) -> V {
+        for place in 0..N {
+            let along = V::load(&self.equations.along[place]);
+            rates = along.mul_add(V::splat(friction.lane(place)), rates);
         }
         rates
     }
 
-    /// Friction of order k with the forces that hold the sticking contacts.
+    /// The forces of order k that hold the sticking contacts, 0 of the others.
     #[inline(always)]
-    fn held(&self, k: usize, rates: V, friction: V) -> V {
+    fn held(&self, k: usize, rates: V) -> V {
         let along = self.read(rates);
         let lost = V::splat((k + 1) as f64).mul_add(self.series.surfaces[k + 1], -along);
         let mut force = V::splat(0.0);
-        for (place, gain) in self.holding.gains.iter().enumerate() {
-            if self.holding.independent[place] {
-                force = gain.mul_add(V::splat(lost.lane(place)), force);
-            }
+        for place in 0..N {
+            force = self.holding.gains[place].mul_add(V::splat(lost.lane(place)), force);
         }
-        self.holding.free.where_positive(force, friction)
+        force
     }
 
     /// Length over which the last retained terms stay below the tolerance.
@@ -653,25 +689,168 @@ impl<V: Lane> PlainSeries<V> {
     }
 
     /// Writes the series to a run.
-    fn write(&self, equations: &PlainEquations, run: &mut MotionRun<'_>) {
-        let coordinates = equations.coordinates;
-        let orders = run.series.states.chunks_exact_mut(2 * coordinates);
-        for (k, states) in orders.enumerate() {
-            let (upper, lower) = states.split_at_mut(coordinates);
-            write(self.displacements[k], upper);
-            write(self.velocities[k], lower);
+    #[inline(always)]
+    fn write<const N: usize>(&self, equations: &PlainEquations, run: &mut MotionRun<'_>) {
+        let (coordinates, states) = (equations.coordinates, &mut run.series.states[..]);
+        if coordinates == N {
+            let orders = states.as_chunks_mut::<N>().0.as_chunks_mut::<2>().0.iter_mut();
+            let known = self.displacements.iter().zip(&self.velocities);
+            for ([upper, lower], (displacement, velocity)) in orders.zip(known) {
+                *upper = std::array::from_fn(|i| displacement.lane(i));
+                *lower = std::array::from_fn(|i| velocity.lane(i));
+            }
+        } else {
+            for (k, states) in states.chunks_exact_mut(2 * coordinates).enumerate() {
+                let (upper, lower) = states.split_at_mut(coordinates);
+                write(self.displacements[k], upper);
+                write(self.velocities[k], lower);
+            }
         }
-        for (place, contact) in run.series.contacts.iter_mut().enumerate() {
+        for place in 0..N {
+            let Some(contact) = run.series.contacts.get_mut(place) else { break };
             for k in 0..=ORDER {
                 contact.slip[k] = self.slip[k].lane(place);
                 contact.friction[k] = self.friction[k].lane(place);
             }
-            if run.forcings.contacts[place].surface.is_constant() {
-                continue;
-            }
-            for k in 0..=ORDER {
-                contact.surface[k] = self.surfaces[k].lane(place);
+            if !run.forcings.contacts[place].surface.is_constant() {
+                for k in 0..=ORDER {
+                    contact.surface[k] = self.surfaces[k].lane(place);
+                }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use quell_model::friction::Friction;
+    use quell_model::profile::{Profile, Wave};
+    use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
+    use quell_model::{LawKind, System, Waveform};
+    use quell_numerics::matrix::Matrix;
+
+    use super::*;
+    use crate::motion::{
+        MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart, MotionStopped,
+        RecordedEvent,
+    };
+
+    fn wave(waveform: Waveform, amplitude: f64, frequency: f64) -> Wave {
+        Wave { waveform, amplitude, frequency, phase: 0.3, envelope: None }
+    }
+
+    fn law(kind: LawKind, contact: usize) -> Friction {
+        let level = 0.4 - 0.03 * contact as f64;
+        let values = match kind {
+            LawKind::Coulomb => vec![0.7 * level, level, 0.02],
+            LawKind::StribeckExponential => vec![0.7 * level, level, 0.1, 1.0, 0.02],
+            _ => vec![level, 0.7 * level, 0.2],
+        };
+        kind.build(&values).expect("values within their bounds")
+    }
+
+    /// A chain of masses, each on a surface of its own, with off-diagonal masses, a moving surface and two forces.
+    fn chain(coordinates: usize, contacts: usize, kind: LawKind) -> System {
+        let mass = Matrix::from_fn(coordinates, coordinates, |i, j| match i.abs_diff(j) {
+            0 => 1.0 + 0.2 * i as f64,
+            1 => 0.1,
+            _ => 0.0,
+        });
+        let stiffness = Matrix::from_fn(coordinates, coordinates, |i, j| match i.abs_diff(j) {
+            0 => 2.2,
+            1 => -0.9,
+            _ => 0.0,
+        });
+        let damping =
+            Matrix::from_fn(coordinates, coordinates, |i, j| if i == j { 0.02 } else { 0.0 });
+        let at = |place: usize| {
+            (0..coordinates).map(|i| f64::from(u8::from(i == place))).collect::<Vec<_>>()
+        };
+        let contact = |number: usize| Contact {
+            name: format!("pad {number}"),
+            tangent: Some(at(number % coordinates)),
+            force: None,
+            normal: None,
+            slope: None,
+            normal_load: 1.0 + 0.3 * number as f64,
+            normal_stiffness: 0.0,
+            tangential_stiffness: None,
+            normal_damping: 0.0,
+            surface_velocity: match number {
+                1 => Profile::constant(0.06).with(wave(Waveform::Sine, 0.02, 3.0)),
+                _ => Profile::constant(0.05),
+            },
+            friction: law(kind, number),
+            varying_load: None,
+        };
+        let force = |place: usize, wave| Input {
+            target: InputTarget::Force(at(place)),
+            profile: Profile::default().with(wave),
+        };
+        let names = (0..coordinates).map(|i| format!("x{i}")).collect();
+        System {
+            structure: Mechanical::new(names, MassMatrix::dense(mass), damping, stiffness).into(),
+            contacts: (0..contacts).map(contact).collect(),
+            inputs: vec![
+                force(0, wave(Waveform::Sine, 0.35, 10.0)),
+                force(coordinates - 1, wave(Waveform::Triangle, 0.1, 7.0)),
+            ],
+        }
+    }
+
+    /// The end and the events of a run that takes its steps by `all`.
+    fn run_by(
+        motion: &Motion<'_>,
+        all: fn(&mut MotionRun<'_>) -> MotionProgress,
+    ) -> (Result<MotionEnd, MotionStopped>, Vec<RecordedEvent>) {
+        let start = MotionStart { time: 0.0, state: vec![0.0; motion.size()] };
+        let mut recorder = MotionRecorder::default();
+        let system = (motion.system, motion.equations().expect("a mass for each coordinate"));
+        let mut run = MotionRun::new(system, &start, 60.0, MOTION_TOLERANCE, &mut recorder);
+        run.open().expect("a start");
+        let end = all(&mut run).and_then(|()| run.end());
+        (end, recorder.events)
+    }
+
+    #[test]
+    fn vectors_have_the_bits_of_the_equations_of_any_system() {
+        let kinds = [
+            LawKind::Stribeck,
+            LawKind::Coulomb,
+            LawKind::StribeckExponential,
+            LawKind::Decreasing,
+        ];
+        let mut events = 0;
+        for (coordinates, contacts) in [(1, 2), (2, 1), (2, 2), (3, 2), (3, 4), (4, 4)] {
+            for kind in kinds {
+                let system = chain(coordinates, contacts, kind);
+                let motion = Motion::new(&system).expect("a system that moves");
+                let plain = motion.equations().expect("equations").plain.as_ref();
+                assert!(plain.is_some(), "{coordinates} coordinates, {contacts} contacts");
+                let (one, other) = (run_by(&motion, run_to_end), run_by(&motion, step_by_step));
+                assert_eq!(one, other, "{coordinates} coordinates, {contacts} contacts, {kind:?}");
+                assert!(one.0.is_ok(), "{:?}", one.0);
+                events += one.1.len();
+            }
+        }
+        assert!(events > 2000, "{events} events");
+    }
+
+    #[test]
+    fn contacts_that_open_or_tilt_and_long_chains_are_left_to_the_general_equations() {
+        let is_plain = |system: &System| {
+            let motion = Motion::new(system).expect("a system that moves");
+            motion.equations().is_ok_and(|equations| equations.plain.is_some())
+        };
+        assert!(is_plain(&chain(2, 2, LawKind::Stribeck)));
+        assert!(!is_plain(&chain(5, 2, LawKind::Stribeck)));
+        assert!(!is_plain(&chain(2, 5, LawKind::Stribeck)));
+        let mut system = chain(2, 2, LawKind::Stribeck);
+        (system.contacts[0].normal, system.contacts[0].normal_stiffness) =
+            (Some(vec![0.0, 1.0]), 4.0);
+        assert!(!is_plain(&system));
+        let mut system = chain(2, 2, LawKind::Stribeck);
+        system.contacts[1].slope = Some(vec![0.1, 0.0]);
+        assert!(!is_plain(&system));
     }
 }

@@ -1,10 +1,10 @@
 //! What a row over the state does in a motion: its range, mean and root mean square from the Taylor series, and samples for a
 //! spectrum.
 
-use quell_numerics::dispatch::{Work, with_fused_multiply_add};
-use quell_numerics::lane::horner;
+use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
+use quell_numerics::lane::{Lane, horner};
 
-use super::contact_meter::{RULE, integral};
+use super::contact_meter::{integral, mean_of, moments_of, values_at};
 use super::extremes::turning_points;
 use super::observer::{MotionObserver, MotionSegment};
 use super::rows::RowEntries;
@@ -58,6 +58,7 @@ pub struct RowMeter {
     reference: Option<f64>,
     sum: f64,
     squares: f64,
+    set: InstructionSet,
     /// The values at `first` + n · `step`.
     pub samples: Vec<f64>,
 }
@@ -76,6 +77,7 @@ impl RowMeter {
             reference: None,
             sum: 0.0,
             squares: 0.0,
+            set: InstructionSet::widest(),
             samples: Vec::with_capacity(count),
         }
     }
@@ -113,7 +115,7 @@ impl RowMeter {
 
 impl MotionObserver for RowMeter {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
-        with_fused_multiply_add(RowOnSegment { meter: self, segment });
+        with_lanes(self.set, RowOnSegment { meter: self, segment });
     }
 }
 
@@ -122,11 +124,11 @@ struct RowOnSegment<'a, 'b> {
     segment: &'a MotionSegment<'b>,
 }
 
-impl Work for RowOnSegment<'_, '_> {
+impl LaneWork for RowOnSegment<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Lane>(self) {
         let Self { meter, segment } = self;
         let series = segment.row_of(&meter.row);
         let duration = segment.duration();
@@ -134,11 +136,9 @@ impl Work for RowOnSegment<'_, '_> {
         meter.length += duration;
         meter.sum += f64::mul_add(-reference, duration, integral(&series, duration));
         meter.extremes.add(&series, duration);
-        let [nodes, weights] = &*RULE;
-        for (node, weight) in nodes.iter().zip(weights) {
-            let value = horner(&series, node * duration) - reference;
-            meter.squares = f64::mul_add(weight * duration, value * value, meter.squares);
-        }
+        let values = values_at::<V>(&series, &moments_of(duration));
+        let squares = values.map(|value| (value - reference) * (value - reference));
+        meter.squares = f64::mul_add(duration, mean_of(&squares), meter.squares);
         while meter.samples.len() < meter.count {
             let time = f64::mul_add(meter.samples.len() as f64, meter.step, meter.first);
             let since = segment.clock().until(time);

@@ -12,11 +12,13 @@
 //! violated condition with the least index changes first), which ends after finitely many steps for every P-matrix: Murty (1974);
 //! Júdice and Pires (1994) for bounds on both sides.
 //!
-//! Dependent rows make G singular: a share [`LEAST_NORM`] of its diagonal is added, whose solution is that of least norm.
+//! Dependent rows make G singular: the forces are those of least norm ([`Gains`]). Where the rows do not agree, so that none take all
+//! slip accelerations, a share [`LEAST_NORM`] of the diagonal is added, and the forces end at their bounds.
 
 use quell_numerics::matrix::Matrix;
 
-use super::stuck::{DEPENDENT, remainder};
+use super::few::Few;
+use super::stuck::{DEPENDENT, Gains, is_diagonal, remainder};
 
 /// Share of the diagonal that is added where rows are dependent: above rounding, so that the matrix can be inverted, and below
 /// [`AT_BOUND`], so that no force changes its place by it.
@@ -40,13 +42,13 @@ pub(super) struct Moment {
     /// G.
     pub(super) coupling: Matrix,
     /// w.
-    pub(super) accelerations: Vec<f64>,
+    pub(super) accelerations: Few<f64>,
     /// μ_s N.
-    pub(super) holding: Vec<f64>,
+    pub(super) holding: Few<f64>,
     /// μ(0⁺) N.
-    pub(super) sliding: Vec<f64>,
+    pub(super) sliding: Few<f64>,
     /// Direction in which the force of a sticking contact has just reached its bound; 0 for the others.
-    pub(super) reached: Vec<i8>,
+    pub(super) reached: Few<i8>,
     /// Whether rows are dependent.
     pub(super) is_dependent: bool,
 }
@@ -55,21 +57,21 @@ pub(super) struct Moment {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Selected {
     /// 0 for stick, else the direction of slip.
-    pub(super) directions: Vec<i8>,
+    pub(super) directions: Few<i8>,
     /// Whether the slip acceleration vanishes: a smooth release.
-    pub(super) is_smooth: Vec<bool>,
+    pub(super) is_smooth: Few<bool>,
     /// Bound at which the force of a sticking contact stands, carried along by contacts on which it depends.
-    pub(super) saturated: Vec<i8>,
+    pub(super) saturated: Few<i8>,
 }
 
 /// Solution of a box problem.
 #[derive(Clone, Debug)]
 struct Boxed {
-    forces: Vec<f64>,
+    forces: Few<f64>,
     /// γ̇.
-    rates: Vec<f64>,
+    rates: Few<f64>,
     /// −1, 0 or 1: at the lower bound, inside, at the upper bound.
-    places: Vec<i8>,
+    places: Few<i8>,
 }
 
 impl Boxed {
@@ -103,12 +105,12 @@ impl Moment {
     pub(super) fn decide(&self) -> Option<Selected> {
         let size = self.size();
         let mut bounds = self.holding.clone();
-        let mut released = vec![false; size];
+        let mut released = Few::from_elem(false, size);
         let mut solved = self.boxed(&bounds)?;
         for round in 0..=size {
-            let sides: Vec<i8> =
+            let sides: Few<i8> =
                 (0..size).map(|c| self.side(c, &solved, &bounds, round == 0)).collect();
-            let newly: Vec<usize> = (0..size)
+            let newly: Few<usize> = (0..size)
                 .filter(|&c| sides[c] != 0 && !released[c] && !self.is_carried(c, &sides, &solved))
                 .collect();
             if newly.is_empty() {
@@ -121,12 +123,13 @@ impl Moment {
             solved = self.boxed(&bounds)?;
         }
         let mut selected = Selected {
-            directions: vec![0; size],
-            is_smooth: vec![false; size],
-            saturated: vec![0; size],
+            directions: Few::from_elem(0, size),
+            is_smooth: Few::from_elem(false, size),
+            saturated: Few::from_elem(0, size),
         };
+        let is_first = !released.contains(&true);
         for (c, released) in released.into_iter().enumerate() {
-            let side = solved.side(c, &bounds);
+            let side = self.side(c, &solved, &bounds, is_first);
             if released && side != 0 {
                 selected.directions[c] = side;
                 selected.is_smooth[c] = self.is_at_rest(c, solved.rates[c]);
@@ -153,7 +156,7 @@ impl Moment {
         if !self.is_dependent || !self.is_at_rest(c, solved.rates[c]) {
             return false;
         }
-        let others: Vec<usize> = (0..self.size()).filter(|d| *d != c && sides[*d] == 0).collect();
+        let others: Few<usize> = (0..self.size()).filter(|d| *d != c && sides[*d] == 0).collect();
         let basis = super::stuck::independent(&self.coupling, &others);
         !others.is_empty()
             && remainder(&self.coupling, c, &basis).is_some_and(|rest| rest.abs() < DEPENDENT)
@@ -162,11 +165,11 @@ impl Moment {
     /// The box problem |T| ≤ bounds.
     fn boxed(&self, bounds: &[f64]) -> Option<Boxed> {
         let size = self.size();
-        let mut places = vec![0_i8; size];
+        let mut places: Few<i8> = Few::from_elem(0, size);
         // Murty's rule ends; the count only guards against rounding that makes two sets alternate.
         for _ in 0..(1_usize << size.min(12)).saturating_mul(8).max(64) {
             let forces = self.forces(bounds, &places)?;
-            let rates: Vec<f64> = (0..size)
+            let rates: Few<f64> = (0..size)
                 .map(|c| {
                     let row = self.coupling.row(c).iter().zip(&forces);
                     self.accelerations[c] - row.map(|(g, force)| g * force).sum::<f64>()
@@ -188,27 +191,58 @@ impl Moment {
     }
 
     /// Forces with those at their bounds given.
-    fn forces(&self, bounds: &[f64], places: &[i8]) -> Option<Vec<f64>> {
-        let mut forces: Vec<f64> =
+    fn forces(&self, bounds: &[f64], places: &[i8]) -> Option<Few<f64>> {
+        let mut forces: Few<f64> =
             places.iter().zip(bounds).map(|(place, bound)| f64::from(*place) * bound).collect();
-        let inside: Vec<usize> = (0..places.len()).filter(|c| places[*c] == 0).collect();
+        let inside: Few<usize> = (0..places.len()).filter(|c| places[*c] == 0).collect();
         if inside.is_empty() {
             return Some(forces);
         }
-        let shift = if self.is_dependent { LEAST_NORM } else { 0.0 };
+        if is_diagonal(&self.coupling) {
+            // With the bits of the general solution.
+            for c in inside {
+                forces[c] = self.accelerations[c] / self.coupling[(c, c)];
+            }
+            return forces.iter().all(|force| force.is_finite()).then_some(forces);
+        }
         let matrix = Matrix::from_fn(inside.len(), inside.len(), |i, j| {
-            let entry = self.coupling[(inside[i], inside[j])];
-            if i == j { entry * (1.0 + shift) } else { entry }
+            self.coupling[(inside[i], inside[j])]
         });
-        let right = Matrix::from_fn(inside.len(), 1, |i, _| {
-            let row = self.coupling.row(inside[i]).iter().zip(&forces);
-            self.accelerations[inside[i]] - row.map(|(g, force)| g * force).sum::<f64>()
-        });
-        let solved = matrix.solve(&right)?;
-        for (c, force) in inside.iter().zip(solved.as_slice()) {
-            forces[*c] = *force;
+        let right: Few<f64> = inside
+            .iter()
+            .map(|c| {
+                let row = self.coupling.row(*c).iter().zip(&forces);
+                self.accelerations[*c] - row.map(|(g, force)| g * force).sum::<f64>()
+            })
+            .collect();
+        let solved = self.solved(&matrix, &right, &inside)?;
+        for (c, force) in inside.iter().zip(solved) {
+            forces[*c] = force;
         }
         Some(forces)
+    }
+
+    /// The forces that take these slip accelerations from the contacts `inside` their bounds.
+    fn solved(&self, matrix: &Matrix, right: &[f64], inside: &[usize]) -> Option<Few<f64>> {
+        let size = right.len();
+        let column = |numbers: &[f64]| Matrix::from_fn(size, 1, |i, _| numbers[i]);
+        if !self.is_dependent {
+            return Some(Few::from_slice(matrix.solve(&column(right))?.as_slice()));
+        }
+        // To rounding, where the rows agree: a share of the diagonal would amplify the rounding of G by its reciprocal.
+        if let Some(forces) = Gains::of(matrix).map(|gains| gains.forces(right)) {
+            let left = matrix.times(&column(&forces));
+            let mut rates = right.iter().zip(left.as_slice()).map(|(w, held)| w - held);
+            let agree =
+                inside.iter().all(|c| rates.next().is_some_and(|rate| self.is_at_rest(*c, rate)));
+            if agree {
+                return Some(forces);
+            }
+        }
+        let shifted = Matrix::from_fn(size, size, |i, j| {
+            if i == j { matrix[(i, j)] * (1.0 + LEAST_NORM) } else { matrix[(i, j)] }
+        });
+        Some(Few::from_slice(shifted.solve(&column(right))?.as_slice()))
     }
 }
 
@@ -263,10 +297,10 @@ mod tests {
     ) -> Moment {
         Moment {
             coupling: Matrix::from_fn(2, 2, |i, j| coupling[i][j]),
-            accelerations: accelerations.to_vec(),
-            holding: holding.to_vec(),
-            sliding: sliding.to_vec(),
-            reached: vec![0; 2],
+            accelerations: Few::from_slice(&accelerations),
+            holding: Few::from_slice(&holding),
+            sliding: Few::from_slice(&sliding),
+            reached: Few::from_elem(0, 2),
             is_dependent: false,
         }
     }
@@ -276,7 +310,7 @@ mod tests {
         // The smallest example of the reference: G, bounds 1 and 1, sliding .9 and .5, w = (−.6, .55).
         let moment = moment([[1.0, 0.5], [0.5, 1.0]], [-0.6, 0.55], [1.0, 1.0], [0.9, 0.5]);
         let selected = moment.decide().expect("a P-matrix");
-        assert_eq!(selected.directions, [0, 1]);
+        assert_eq!(selected.directions[..], [0, 1]);
         let bounds = [0.9, 0.5];
         let solved = moment.boxed(&bounds).expect("a P-matrix");
         assert!((solved.forces[0] + 0.85).abs() < 1e-15 && solved.forces[1] == 0.5);
@@ -289,8 +323,8 @@ mod tests {
             let mut pads = moment([[1.0, 1.0], [1.0, 1.0]], [force; 2], [0.2, 0.3], [0.12, 0.18]);
             pads.is_dependent = true;
             let selected = pads.decide().expect("solvable");
-            assert_eq!(selected.directions, expected, "{force}");
-            assert_eq!(selected.saturated, if force == 0.45 { [1, 0] } else { [0, 0] });
+            assert_eq!(selected.directions[..], expected, "{force}");
+            assert_eq!(selected.saturated[..], if force == 0.45 { [1, 0] } else { [0, 0] });
         }
     }
 
@@ -311,8 +345,8 @@ mod tests {
                 coupling,
                 accelerations: (0..4).map(|_| random()).collect(),
                 holding: (0..4).map(|_| 0.3 + 0.4 * random()).collect(),
-                sliding: vec![0.0; 4],
-                reached: vec![0; 4],
+                sliding: Few::from_elem(0.0, 4),
+                reached: Few::from_elem(0, 4),
                 is_dependent: false,
             };
             let solved = moment.boxed(&moment.holding).expect("positive definite");

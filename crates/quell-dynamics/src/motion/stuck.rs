@@ -5,12 +5,14 @@
 //! an independent subset B of them these are T = R (RᵀR)⁻¹ G_BB⁻¹ w_B; a contact that reaches its bound stays there (saturated),
 //! while the others carry the rest.
 
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::Lane;
 use quell_numerics::matrix::Matrix;
 
 use super::contact_equation::ContactEquation;
 use super::contact_series::ContactSeries;
 use super::equations::MotionEquations;
+use super::few::Few;
 use super::phase::ContactNow;
 use super::rows::{StateRow, StateStorage};
 
@@ -22,13 +24,13 @@ pub(super) const DEPENDENT: f64 = 1e-10;
 #[derive(Clone, Debug, Default)]
 pub(super) struct StuckForces {
     /// The contacts, in order.
-    free: Vec<usize>,
+    free: Few<usize>,
     /// Those with independent rows, whose conditions are used.
-    independent: Vec<usize>,
+    independent: Few<usize>,
     /// T of the free contacts per w of the independent ones, row by row.
-    gain: Vec<f64>,
+    gain: Few<f64>,
     /// σ of the free contacts at the moment for which the gain holds.
-    tilts: Vec<f64>,
+    tilts: Few<f64>,
     /// Whether the rows of the sticking contacts, saturated ones included, are dependent.
     pub(super) is_dependent: bool,
 }
@@ -103,9 +105,14 @@ pub(super) fn coupling(equations: &MotionEquations, members: &[usize], tilts: &[
     })
 }
 
+/// Whether no contact moves another at once.
+pub(super) fn is_diagonal(matrix: &Matrix) -> bool {
+    (0..matrix.rows()).all(|i| (0..matrix.rows()).all(|j| i == j || matrix[(i, j)] == 0.0))
+}
+
 /// The members of a set whose rows are independent, the first ones first.
-pub(super) fn independent(matrix: &Matrix, among: &[usize]) -> Vec<usize> {
-    let mut chosen: Vec<usize> = Vec::new();
+pub(super) fn independent(matrix: &Matrix, among: &[usize]) -> Few<usize> {
+    let mut chosen: Few<usize> = Few::new();
     for &next in among {
         if remainder(matrix, next, &chosen).is_some_and(|rest| rest > DEPENDENT) {
             chosen.push(next);
@@ -127,7 +134,7 @@ pub(super) fn dependent(matrix: &Matrix) -> Vec<usize> {
 /// The part of a row that others do not carry, relative to it: its Schur complement.
 pub(super) fn remainder(matrix: &Matrix, row: usize, others: &[usize]) -> Option<f64> {
     let own = matrix[(row, row)];
-    if others.is_empty() {
+    if others.iter().all(|d| matrix[(*d, row)] == 0.0) {
         return Some(1.0);
     }
     let block = Matrix::from_fn(others.len(), others.len(), |i, j| matrix[(others[i], others[j])]);
@@ -138,6 +145,72 @@ pub(super) fn remainder(matrix: &Matrix, row: usize, others: &[usize]) -> Option
     Some((own - carried) / own)
 }
 
+/// The least-norm forces that hold contacts at rest, from the slip accelerations that they have without these.
+pub(super) struct Gains {
+    /// Places of the contacts with independent rows, whose conditions are used.
+    pub(super) independent: Few<usize>,
+    /// T of all per w of the independent ones, row by row.
+    pub(super) gain: Few<f64>,
+}
+
+impl Gains {
+    /// For contacts with this G; `None` where their forces are not determined.
+    pub(super) fn of(matrix: &Matrix) -> Option<Self> {
+        let size = matrix.rows();
+        let places: Few<usize> = (0..size).collect();
+        if is_diagonal(matrix) {
+            // With the bits of the general solution.
+            let mut gain = Few::from_elem(0.0, size * size);
+            for place in 0..size {
+                gain[place * (size + 1)] = 1.0 / matrix[(place, place)];
+            }
+            let is_determined = gain.iter().all(|gain| gain.is_finite());
+            return is_determined.then_some(Self { independent: places, gain });
+        }
+        let independent = independent(matrix, &places);
+        let identity = Matrix::identity(independent.len());
+        let gain = if independent.len() == size {
+            matrix.solve(&identity)?
+        } else {
+            let entry = |i: usize, j: usize| matrix[(independent[i], independent[j])];
+            let count = independent.len();
+            let inverse = Matrix::from_fn(count, count, entry).solve(&identity)?;
+            let shares =
+                Matrix::from_fn(size, count, |i, j| matrix[(i, independent[j])]).times(&inverse);
+            let normal = shares.transpose().times(&shares);
+            shares.times(&normal.solve(&inverse)?)
+        };
+        Some(Self { independent, gain: Few::from_slice(gain.as_slice()) })
+    }
+
+    /// The forces for these slip accelerations.
+    pub(super) fn forces(&self, accelerations: &[f64]) -> Few<f64> {
+        let rows = self.gain.chunks_exact(self.independent.len());
+        let force = |row: &[f64]| {
+            let terms = row.iter().zip(&self.independent);
+            terms.map(|(gain, place)| gain * accelerations[*place]).sum()
+        };
+        rows.map(force).collect()
+    }
+}
+
+/// Corrects a state ([`StuckForces::project`]).
+struct Projection<'a, F> {
+    forces: &'a StuckForces,
+    equations: &'a MotionEquations,
+    surfaces: F,
+    state: &'a mut [f64],
+}
+
+impl<F: Fn(usize) -> f64> Work for Projection<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.forces.project_by(self.equations, &self.surfaces, self.state);
+    }
+}
+
 impl StuckForces {
     /// For the contacts that stick now; `None` where their forces are not determined.
     pub(super) fn of(
@@ -145,39 +218,28 @@ impl StuckForces {
         now: &[ContactNow],
         tilts: &[f64],
     ) -> Option<Self> {
-        let sticking: Vec<usize> = (0..now.len()).filter(|c| now[*c].sticks()).collect();
+        let sticking: Few<usize> = (0..now.len()).filter(|c| now[*c].sticks()).collect();
         if sticking.is_empty() {
             return Some(Self::default());
         }
         let all = coupling(equations, &sticking, tilts);
-        let places: Vec<usize> = (0..sticking.len()).collect();
+        let places: Few<usize> = (0..sticking.len()).collect();
         let is_dependent = independent(&all, &places).len() < sticking.len();
-        let free: Vec<usize> =
+        let free: Few<usize> =
             sticking.iter().copied().filter(|c| now[*c].saturated == 0).collect();
         if free.is_empty() {
             return Some(Self { is_dependent, ..Self::default() });
         }
         let matrix =
             if free.len() == sticking.len() { all } else { coupling(equations, &free, tilts) };
-        let chosen = independent(&matrix, &places[..free.len()]);
-        let identity = Matrix::identity(chosen.len());
-        let inverse = if chosen.len() == free.len() {
-            matrix.solve(&identity)?
-        } else {
-            let entry = |i: usize, j: usize| matrix[(chosen[i], chosen[j])];
-            Matrix::from_fn(chosen.len(), chosen.len(), entry).solve(&identity)?
-        };
-        let gain = if chosen.len() == free.len() {
-            inverse
-        } else {
-            let shares = Matrix::from_fn(free.len(), chosen.len(), |i, j| matrix[(i, chosen[j])])
-                .times(&inverse);
-            let normal = shares.transpose().times(&shares);
-            shares.times(&normal.solve(&inverse)?)
-        };
-        let independent = chosen.iter().map(|place| free[*place]).collect();
-        let tilts = free.iter().map(|c| tilts[*c]).collect();
-        Some(Self { free, independent, gain: gain.as_slice().to_vec(), tilts, is_dependent })
+        let Gains { independent, gain } = Gains::of(&matrix)?;
+        Some(Self {
+            independent: independent.iter().map(|place| free[*place]).collect(),
+            tilts: free.iter().map(|c| tilts[*c]).collect(),
+            free,
+            gain,
+            is_dependent,
+        })
     }
 
     /// The forces of one run, for the equations of a step.
@@ -200,10 +262,20 @@ impl StuckForces {
         surfaces: impl Fn(usize) -> f64,
         state: &mut [f64],
     ) {
+        with_fused_multiply_add(Projection { forces: self, equations, surfaces, state });
+    }
+
+    #[inline(always)]
+    fn project_by(
+        &self,
+        equations: &MotionEquations,
+        surfaces: &impl Fn(usize) -> f64,
+        state: &mut [f64],
+    ) {
         let drift = |state: &[f64], index: usize| {
             surfaces(index) - equations.contacts[index].tangent.dot(state)
         };
-        let lost: Vec<f64> = self.independent.iter().map(|index| drift(state, *index)).collect();
+        let lost: Few<f64> = self.independent.iter().map(|index| drift(state, *index)).collect();
         for (place, &index) in self.free.iter().enumerate() {
             let row = &self.gain[place * lost.len()..(place + 1) * lost.len()];
             let impulse: f64 = row.iter().zip(&lost).map(|(gain, lost)| gain * lost).sum();

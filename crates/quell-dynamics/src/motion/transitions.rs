@@ -1,8 +1,12 @@
 //! Transitions of a run: what the contacts do at the start, and at a moment at which guards have reached zero.
 
 use quell_model::friction::{BranchSeries, FrictionConstants};
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use smallvec::SmallVec;
 
+use super::contact_equation::ContactEquation;
 use super::engine::{MotionProgress, MotionRun, PATIENCE};
+use super::few::Few;
 use super::guards::GuardReached;
 use super::observer::{MotionEvent, MotionMoment, Trigger};
 use super::phase::{ContactNow, ContactPhase};
@@ -34,6 +38,18 @@ const MOST_EVENTS_OF_A_CONTACT: u64 = 48;
 /// accumulation.
 const ACCUMULATED: f64 = 1e-6;
 
+/// ẋ of a run now, without the friction of some contacts.
+struct RatesWithout<'r, 'a>(&'r MotionRun<'a>, &'r [usize]);
+
+impl Work for RatesWithout<'_, '_> {
+    type Output = SmallVec<[f64; 8]>;
+
+    #[inline(always)]
+    fn run(self) -> SmallVec<[f64; 8]> {
+        self.0.rates_without(self.1)
+    }
+}
+
 impl MotionRun<'_> {
     /// A slip velocity that friction brings to rest within a time too short to be distinguished from zero.
     fn negligible_slip(&self, contact: usize, load: f64) -> f64 {
@@ -44,7 +60,7 @@ impl MotionRun<'_> {
 
     /// The contacts at the start of a run: no event.
     pub(super) fn begin(&mut self) -> MotionProgress {
-        let mut resting = Vec::new();
+        let mut resting: Few<usize> = Few::new();
         for contact in 0..self.now.len() {
             if self.now[contact].kept {
                 continue;
@@ -85,9 +101,9 @@ impl MotionRun<'_> {
         first: GuardReached,
         triggers: &[GuardReached],
     ) -> MotionProgress {
-        let before: Vec<ContactPhase> = self.now.iter().map(|now| now.phase).collect();
-        let mut arrived = Vec::new();
-        let mut reached = Vec::new();
+        let before: Few<ContactPhase> = self.now.iter().map(|now| now.phase).collect();
+        let mut arrived: Few<usize> = Few::new();
+        let mut reached: Few<(usize, i8)> = Few::new();
         // A load that jumps through zero changes forces at once, which may release others.
         let mut jumped = false;
         for trigger in triggers {
@@ -166,7 +182,7 @@ impl MotionRun<'_> {
         reached: &[(usize, i8)],
         holds: bool,
     ) -> MotionProgress {
-        let members: Vec<usize> =
+        let members: Few<usize> =
             (0..self.now.len()).filter(|c| self.now[*c].sticks() || arrived.contains(c)).collect();
         self.is_stale = true;
         if holds {
@@ -201,22 +217,26 @@ impl MotionRun<'_> {
 
     /// The conditions of a decision of some contacts.
     pub(super) fn moment_of(&self, members: &[usize], reached: &[(usize, i8)]) -> Moment {
-        let rates = self.rates_without(members);
+        let rates = with_fused_multiply_add(RatesWithout(self, members));
         let tilts = self.tilts();
         let matrix = coupling(self.equations, members, &tilts);
-        let places: Vec<usize> = (0..members.len()).collect();
+        let places: Few<usize> = (0..members.len()).collect();
         let is_dependent = independent(&matrix, &places).len() < members.len();
         let accelerations = members.iter().map(|&c| {
-            let surface = self.forcings.contacts[c].surface.series(self.clock)[1];
+            let surface = &self.forcings.contacts[c].surface;
+            let surface = if surface.is_constant() { 0.0 } else { surface.series(self.clock)[1] };
             surface - self.equations.contacts[c].tangent.dot(&rates)
         });
-        let pressed = |c: usize| self.load(c).max(0.0) * self.factor(c);
-        let level = |c: usize, coefficient: f64| coefficient * pressed(c);
-        let contacts = &self.equations.contacts;
+        let pressed: Few<f64> =
+            members.iter().map(|&c| self.load(c).max(0.0) * self.factor(c)).collect();
+        let level = |coefficient: fn(&ContactEquation) -> f64| {
+            let contacts = members.iter().map(|c| coefficient(&self.equations.contacts[*c]));
+            contacts.zip(&pressed).map(|(coefficient, pressed)| coefficient * pressed).collect()
+        };
         Moment {
             accelerations: accelerations.collect(),
-            holding: members.iter().map(|&c| level(c, contacts[c].static_coefficient)).collect(),
-            sliding: members.iter().map(|&c| level(c, contacts[c].sliding_coefficient)).collect(),
+            holding: level(|contact| contact.static_coefficient),
+            sliding: level(|contact| contact.sliding_coefficient),
             reached: members
                 .iter()
                 .map(|c| reached.iter().find(|(at, _)| at == c).map_or(0, |(_, side)| *side))
@@ -232,9 +252,10 @@ impl MotionRun<'_> {
     }
 
     /// ẋ now, without the friction of some contacts.
-    fn rates_without(&self, members: &[usize]) -> Vec<f64> {
+    #[inline(always)]
+    fn rates_without(&self, members: &[usize]) -> SmallVec<[f64; 8]> {
         let state = self.series.start();
-        let mut rates = vec![0.0; state.len()];
+        let mut rates: SmallVec<[f64; 8]> = SmallVec::from_elem(0.0, state.len());
         self.equations.matrix.times(state, &mut rates);
         if let (Some(matrices), Some(speed)) = (&self.equations.by_speed, &self.forcings.speed) {
             matrices.add_now(speed, self.clock, state, &mut rates);
@@ -282,8 +303,8 @@ impl MotionRun<'_> {
         first: GuardReached,
         triggers: &[GuardReached],
     ) -> MotionProgress {
-        let after: Vec<ContactPhase> = self.now.iter().map(|now| now.phase).collect();
-        if after == before {
+        let after: Few<ContactPhase> = self.now.iter().map(|now| now.phase).collect();
+        if after[..] == *before {
             return Ok(());
         }
         let clock = self.clock;
@@ -293,7 +314,7 @@ impl MotionRun<'_> {
         let decisive = triggers.iter().filter(|guard| !matches!(guard.what, Trigger::Turn(_)));
         self.observer.moment(&MotionMoment {
             after: &after,
-            triggers: &reached.collect::<Vec<_>>(),
+            triggers: &reached.collect::<Few<_>>(),
             is_jump: first.after == 0.0 && self.last_break == clock.time(),
             is_one_sided: decisive.count() > 1 && !self.stuck.is_dependent,
         });

@@ -37,11 +37,13 @@ pub fn proof_of_no_root<V: Lane, const N: usize>(
     wanted: V,
 ) -> V {
     let (zero, one) = (V::splat(0.0), V::splat(1.0));
-    let mut a = [zero; N];
-    for k in 0..N {
-        let first = if k + 1 < N { c[k + 1] } else { zero };
-        let second = if k + 2 < N { c[k + 2] } else { zero };
-        a[k] = pick(zeros, c[k], first, second);
+    let mut a = *c;
+    if zeros.any_positive() {
+        for k in 0..N {
+            let first = if k + 1 < N { c[k + 1] } else { zero };
+            let second = if k + 2 < N { c[k + 2] } else { zero };
+            a[k] = pick(zeros, c[k], first, second);
+        }
     }
     let mut a = scaled(&a, h);
     for coefficient in &mut a {

@@ -241,6 +241,9 @@ impl<V: Lane> LaneNumbers<V> {
     pub(super) fn extract(&self, lane: usize, out: &mut StepSeries) {
         let states = (ORDER + 1) * self.size;
         copy_lane(lane, &self.series.states[..states], &mut out.states[..states]);
+        for (numbers, push) in self.series.pushes.iter().zip(&mut out.pushes) {
+            copy_lane(lane, numbers, push);
+        }
         for (numbers, contact) in self.series.contacts.iter().zip(&mut out.contacts) {
             copy_lane(lane, &numbers.slip, &mut contact.slip);
             copy_lane(lane, &numbers.friction, &mut contact.friction);
