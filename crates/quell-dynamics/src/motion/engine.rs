@@ -10,7 +10,6 @@ use super::guards::Guards;
 use super::observer::{MotionObserver, MotionSegment, SegmentSeries};
 use super::own_state;
 use super::phase::{ContactNow, ContactPhase};
-use super::plain_contacts::run_to_end;
 use super::selection::first_minor_not_positive;
 use super::series::StepSeries;
 use super::state::{ContactEnd, MotionEnd, MotionStart};
@@ -133,18 +132,6 @@ impl<'a> MotionRun<'a> {
             }
         }
         self
-    }
-
-    /// Runs to the end.
-    pub(super) fn run(mut self) -> Result<MotionEnd, MotionStopped> {
-        self.open()?;
-        self.run_on()
-    }
-
-    /// Runs to the end from where it is.
-    pub(super) fn run_on(mut self) -> Result<MotionEnd, MotionStopped> {
-        run_to_end(&mut self)?;
-        self.end()
     }
 
     /// Decides what the contacts do at the start.

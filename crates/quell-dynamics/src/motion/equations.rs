@@ -16,7 +16,7 @@ use quell_numerics::matrix::Matrix;
 
 use super::contact_equation::ContactEquation;
 use super::own_state::OwnState;
-use super::plain_contacts::PlainEquations;
+use super::plain_equations::PlainEquations;
 use super::rates::{self, FastestRates};
 use super::rows::{RowEntries, StateMatrix, StateRow};
 use super::speed_terms::SpeedMatrices;

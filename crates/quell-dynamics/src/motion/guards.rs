@@ -180,7 +180,7 @@ impl<'a> Guards<'a> {
 
     /// Every guard that reaches zero together with the first one, at time `after` of the step.
     pub(super) fn together(&self, first: &GuardReached, time_scale: f64) -> Few<GuardReached> {
-        with_fused_multiply_add(Together { guards: self, first, time_scale })
+        with_fused_multiply_add(SameMoment { guards: self, first, time_scale })
     }
 
     #[inline(always)]
@@ -206,13 +206,13 @@ impl<'a> Guards<'a> {
     }
 }
 
-struct Together<'g, 'a> {
+struct SameMoment<'g, 'a> {
     guards: &'g Guards<'a>,
     first: &'g GuardReached,
     time_scale: f64,
 }
 
-impl Work for Together<'_, '_> {
+impl Work for SameMoment<'_, '_> {
     type Output = Few<GuardReached>;
 
     #[inline(always)]

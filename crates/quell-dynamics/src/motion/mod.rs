@@ -16,7 +16,7 @@
 //! | `equations`, `contact_equation`, `rows`, `rates` | a system as the engine needs it |
 //! | `variation`, `change_series` | small changes of the initial state |
 //! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
-//! | `plain_contacts` | the steps of few coordinates with plain contacts, in vectors |
+//! | `plain_equations`, `plain_step`, `plain_contacts` | the steps of few coordinates with plain contacts, in vectors |
 //! | `own_state`, `own_friction`, `own_events` | contacts with a state of their own: elastic sliders and bristles |
 //! | `departure` | how a number that is zero leaves zero |
 //! | `contact_masks` | what each contact does during a step, in every lane |
@@ -24,7 +24,7 @@
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `lanes` | runs of many systems side by side |
 //! | `few` | lists of the contacts of a moment, which are few |
-//! | `engine`, `transitions` | the loop, and what the contacts do at its events |
+//! | `engine`, `drive`, `transitions` | a run, its loop, and what the contacts do at its events |
 //! | `one_mass` | runs of systems of one mass, by their own engine |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
 //! | `extremes` | extremes of a series on a step |
@@ -38,6 +38,7 @@ mod contact_masks;
 mod contact_meter;
 mod contact_series;
 mod departure;
+mod drive;
 mod engine;
 mod equations;
 mod expansion;
@@ -56,6 +57,8 @@ mod own_friction;
 mod own_state;
 mod phase;
 mod plain_contacts;
+mod plain_equations;
+mod plain_step;
 mod rates;
 mod reading_sampler;
 mod row_meter;

@@ -1,0 +1,195 @@
+//! The loop of one run: in vectors where its contacts are plain, else step by step.
+
+use quell_numerics::dispatch::{LaneWork, only_in_four_lanes};
+use quell_numerics::lane::Lane;
+
+use super::engine::{MotionProgress, MotionRun};
+use super::equations::MotionEquations;
+use super::plain_contacts::PlainVectors;
+use super::plain_equations::MOST;
+use super::state::MotionEnd;
+use super::stopped::MotionStopped;
+
+impl MotionRun<'_> {
+    /// Runs to the end.
+    pub(super) fn run(mut self) -> Result<MotionEnd, MotionStopped> {
+        self.open()?;
+        self.run_on()
+    }
+
+    /// Runs to the end from where it is.
+    pub(super) fn run_on(mut self) -> Result<MotionEnd, MotionStopped> {
+        run_to_end(&mut self)?;
+        self.end()
+    }
+}
+
+/// A run to its end, in vectors where its contacts are plain.
+fn run_to_end(run: &mut MotionRun<'_>) -> MotionProgress {
+    match only_in_four_lanes(PlainRun(run)) {
+        Ok(progress) => progress,
+        Err(PlainRun(run)) => step_by_step(run),
+    }
+}
+
+/// The run by the equations of any system.
+fn step_by_step(run: &mut MotionRun<'_>) -> MotionProgress {
+    while !run.is_over() {
+        run.step()?;
+    }
+    Ok(())
+}
+
+struct PlainRun<'r, 'a>(&'r mut MotionRun<'a>);
+
+impl LaneWork for PlainRun<'_, '_> {
+    type Output = MotionProgress;
+
+    #[inline(always)]
+    fn run<V: Lane>(self) -> MotionProgress {
+        let Self(run) = self;
+        let equations: &MotionEquations = run.equations;
+        let Some(vectors) =
+            equations.plain.as_ref().and_then(|plain| PlainVectors::<V>::of(plain, run))
+        else {
+            return step_by_step(run);
+        };
+        // Places without a coordinate or a contact hold zeros, and cost time alone.
+        if equations.contacts.len().max(run.equations.size / 2) <= 2 {
+            vectors.run::<2>(run)
+        } else {
+            vectors.run::<MOST>(run)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use quell_model::friction::Friction;
+    use quell_model::profile::{Profile, Wave};
+    use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
+    use quell_model::{LawKind, System, Waveform};
+    use quell_numerics::matrix::Matrix;
+
+    use super::*;
+    use crate::motion::{MOTION_TOLERANCE, Motion, MotionRecorder, MotionStart, RecordedEvent};
+
+    fn wave(waveform: Waveform, amplitude: f64, frequency: f64) -> Wave {
+        Wave { waveform, amplitude, frequency, phase: 0.3, envelope: None }
+    }
+
+    fn law(kind: LawKind, contact: usize) -> Friction {
+        let level = 0.4 - 0.03 * contact as f64;
+        let values = match kind {
+            LawKind::Coulomb => vec![0.7 * level, level, 0.02],
+            LawKind::StribeckExponential => vec![0.7 * level, level, 0.1, 1.0, 0.02],
+            _ => vec![level, 0.7 * level, 0.2],
+        };
+        kind.build(&values).expect("values within their bounds")
+    }
+
+    /// A chain of masses, each on a surface of its own, with off-diagonal masses, a moving surface and two forces.
+    fn chain(coordinates: usize, contacts: usize, kind: LawKind) -> System {
+        let mass = Matrix::from_fn(coordinates, coordinates, |i, j| match i.abs_diff(j) {
+            0 => 1.0 + 0.2 * i as f64,
+            1 => 0.1,
+            _ => 0.0,
+        });
+        let stiffness = Matrix::from_fn(coordinates, coordinates, |i, j| match i.abs_diff(j) {
+            0 => 2.2,
+            1 => -0.9,
+            _ => 0.0,
+        });
+        let damping =
+            Matrix::from_fn(coordinates, coordinates, |i, j| if i == j { 0.02 } else { 0.0 });
+        let at = |place: usize| {
+            (0..coordinates).map(|i| f64::from(u8::from(i == place))).collect::<Vec<_>>()
+        };
+        let contact = |number: usize| Contact {
+            name: format!("pad {number}"),
+            tangent: Some(at(number % coordinates)),
+            force: None,
+            normal: None,
+            slope: None,
+            normal_load: 1.0 + 0.3 * number as f64,
+            normal_stiffness: 0.0,
+            tangential_stiffness: None,
+            normal_damping: 0.0,
+            surface_velocity: match number {
+                1 => Profile::constant(0.06).with(wave(Waveform::Sine, 0.02, 3.0)),
+                _ => Profile::constant(0.05),
+            },
+            friction: law(kind, number),
+            varying_load: None,
+        };
+        let force = |place: usize, wave| Input {
+            target: InputTarget::Force(at(place)),
+            profile: Profile::default().with(wave),
+        };
+        let names = (0..coordinates).map(|i| format!("x{i}")).collect();
+        System {
+            structure: Mechanical::new(names, MassMatrix::dense(mass), damping, stiffness).into(),
+            contacts: (0..contacts).map(contact).collect(),
+            inputs: vec![
+                force(0, wave(Waveform::Sine, 0.35, 10.0)),
+                force(coordinates - 1, wave(Waveform::Triangle, 0.1, 7.0)),
+            ],
+        }
+    }
+
+    /// The end and the events of a run that takes its steps by `all`.
+    fn run_by(
+        motion: &Motion<'_>,
+        all: fn(&mut MotionRun<'_>) -> MotionProgress,
+    ) -> (Result<MotionEnd, MotionStopped>, Vec<RecordedEvent>) {
+        let start = MotionStart { time: 0.0, state: vec![0.0; motion.size()] };
+        let mut recorder = MotionRecorder::default();
+        let system = (motion.system, motion.equations().expect("a mass for each coordinate"));
+        let mut run = MotionRun::new(system, &start, 60.0, MOTION_TOLERANCE, &mut recorder);
+        run.open().expect("a start");
+        let end = all(&mut run).and_then(|()| run.end());
+        (end, recorder.events)
+    }
+
+    #[test]
+    fn vectors_have_the_bits_of_the_equations_of_any_system() {
+        let kinds = [
+            LawKind::Stribeck,
+            LawKind::Coulomb,
+            LawKind::StribeckExponential,
+            LawKind::Decreasing,
+        ];
+        let mut events = 0;
+        for (coordinates, contacts) in [(1, 2), (2, 1), (2, 2), (3, 2), (3, 4), (4, 4)] {
+            for kind in kinds {
+                let system = chain(coordinates, contacts, kind);
+                let motion = Motion::new(&system).expect("a system that moves");
+                let plain = motion.equations().expect("equations").plain.as_ref();
+                assert!(plain.is_some(), "{coordinates} coordinates, {contacts} contacts");
+                let (one, other) = (run_by(&motion, run_to_end), run_by(&motion, step_by_step));
+                assert_eq!(one, other, "{coordinates} coordinates, {contacts} contacts, {kind:?}");
+                assert!(one.0.is_ok(), "{:?}", one.0);
+                events += one.1.len();
+            }
+        }
+        assert!(events > 2000, "{events} events");
+    }
+
+    #[test]
+    fn contacts_that_open_or_tilt_and_long_chains_are_left_to_the_general_equations() {
+        let is_plain = |system: &System| {
+            let motion = Motion::new(system).expect("a system that moves");
+            motion.equations().is_ok_and(|equations| equations.plain.is_some())
+        };
+        assert!(is_plain(&chain(2, 2, LawKind::Stribeck)));
+        assert!(!is_plain(&chain(5, 2, LawKind::Stribeck)));
+        assert!(!is_plain(&chain(2, 5, LawKind::Stribeck)));
+        let mut system = chain(2, 2, LawKind::Stribeck);
+        (system.contacts[0].normal, system.contacts[0].normal_stiffness) =
+            (Some(vec![0.0, 1.0]), 4.0);
+        assert!(!is_plain(&system));
+        let mut system = chain(2, 2, LawKind::Stribeck);
+        system.contacts[1].slope = Some(vec![0.1, 0.0]);
+        assert!(!is_plain(&system));
+    }
+}
