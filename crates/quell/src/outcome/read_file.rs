@@ -45,11 +45,8 @@ pub(super) fn read_in_words(file: &FileDialect) -> Option<String> {
     if !units.is_empty() {
         said.push(format!("the units {}", listed(&units)));
     }
-    for (count, what) in [(file.header_lines, "header line"), (file.comment_lines, "comment line")]
-    {
-        if count > 0 {
-            said.push(counted(count, what));
-        }
+    if file.header_lines > 0 {
+        said.push(counted(file.header_lines, "header line"));
     }
     let mut lines: Vec<String> =
         file.left_out_lines.iter().take(LISTED).map(ToString::to_string).collect();
@@ -58,7 +55,11 @@ pub(super) fn read_in_words(file: &FileDialect) -> Option<String> {
     }
     if !lines.is_empty() {
         let word = if file.left_out_lines.len() == 1 { "line" } else { "lines" };
-        said.push(format!("a gap in {word} {}, left out", listed(&lines)));
+        said.push(format!("{word} {} left out for a gap", listed(&lines)));
+    }
+    // Comments alone are those of a plain file.
+    if !said.is_empty() && file.comment_lines > 0 {
+        said.push(counted(file.comment_lines, "comment line"));
     }
     let source = match file.format {
         "LabVIEW" => "A LabVIEW measurement file",
