@@ -164,3 +164,139 @@ fn what_is_wrong_is_refused_by_name() {
     assert_eq!(done["law"], "coulomb");
     assert_eq!(done["left_out"].as_array().expect("a list").len(), 3);
 }
+
+/// One table in the ways in which instruments and spreadsheets write it.
+#[test]
+fn one_table_is_read_however_it_is_written() {
+    let (place, _) = place("fit-dialects", 1);
+    let text = fs::read_to_string(place.folder.join("data.csv")).expect("a file");
+    let rows: Vec<(&str, &str)> =
+        text.lines().skip(1).map(|line| line.split_once(',').expect("two columns")).collect();
+    let written = |header: &str, row: &dyn Fn(&str, &str) -> String| {
+        rows.iter().fold(header.to_owned(), |text, (v, mu)| text + &row(v, mu) + "\r\n")
+    };
+    let comma = |number: &str| number.replace('.', ",");
+    let scaled =
+        |number: &str, factor: f64| format!("{:?}", factor * number.parse::<f64>().expect("one"));
+    let plain = place.good(&["fit", "data.csv", "--law", "stribeck"]);
+    assert_eq!(plain["read"]["separator"], ",");
+    let decimal =
+        written("slip_velocity;coefficient\r\n", &|v, mu| format!("{};{}", comma(v), comma(mu)));
+    let tabs = written("# rig\r\nslip_velocity\tcoefficient (%)\r\n", &|v, mu| {
+        format!("{v}\t{}", scaled(mu, 100.0))
+    });
+    let forces = written("Rig;4\r\nV;F;N\r\n", &|v, mu| {
+        format!("{};{};20", comma(v), comma(&scaled(mu, 20.0)))
+    });
+    let gaps = written("slip_velocity coefficient\r\n1 NaN\r\n", &|v, mu| format!("{v}  {mu}"));
+    let choice = "slip_velocity=V,friction_force=F,normal_load=N";
+    for (text, columns, field, wanted) in [
+        (decimal, &[][..], "decimal", serde_json::json!(",")),
+        (tabs, &[], "units", serde_json::json!([null, "%"])),
+        (forces, &["--columns", choice], "header_lines", serde_json::json!(1)),
+        (gaps, &[], "left_out_lines", serde_json::json!([2])),
+    ] {
+        place.write("other.csv", text);
+        let done = place.good(&[&["fit", "other.csv", "--law", "stribeck"], columns].concat());
+        assert_eq!(done["read"][field], wanted, "{done}");
+        for key in ["static_coefficient", "viscous"] {
+            let of = |done: &Json| done["parameters"][key]["value"].as_f64();
+            if let (Some(own), Some(plain)) = (of(&done), of(&plain)) {
+                assert!((own / plain - 1.0).abs() < 1e-9, "{field} {key}: {own}");
+            }
+        }
+    }
+    // Units are converted, and what may mean two things is refused with its line.
+    let text = written("slip_velocity,coefficient\r\nmm/s,1\r\n", &|v, mu| {
+        format!("{},{mu}", scaled(v, 1e3))
+    });
+    place.write("other.csv", text);
+    let done = place.good(&["fit", "other.csv", "--law", "stribeck-exponential"]);
+    assert_eq!(done["units"]["reference_velocity"], "m/s");
+    for (text, line) in [
+        ("slip_velocity,coefficient\n0,01,0,39\n0,02,0,38\n", "line 2"),
+        ("slip_velocity;coefficient\n0,01;0,39\n0,02;0,38\n0.2;0.3\n", "line 4"),
+        ("slip_velocity;coefficient\n1.234;0,31\n2.345;0,30\n", "line 2"),
+    ] {
+        place.write("other.csv", text);
+        let output = place.quell(&["fit", "other.csv"]);
+        let said = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(2));
+        assert!(said.contains("other.csv") && said.contains(line), "{said}");
+    }
+}
+
+/// Means of records of a drive, whose torque is in per cent of the rated one.
+#[test]
+fn a_folder_of_records_is_fitted_as_forces_that_a_study_takes() {
+    let place = Place::with("fit-folder", &[]);
+    fs::create_dir_all(place.folder.join("records")).expect("a folder");
+    for (index, speed) in [2.0_f64, 10.0, 20.0, 40.0, 80.0, 160.0].iter().enumerate() {
+        let share = 30.0 + 8.0 * (-speed / 15.0).exp() + 0.01 * speed;
+        let text = format!(
+            "Date:;2026-03-04\r\n;Speed;Torque\r\nms;rpm;%\r\n0;{speed};{}\r\n50;{speed};{}\r\n",
+            share + 0.5,
+            share - 0.5
+        );
+        place.write(&format!("records/steady_{index}.csv"), text);
+    }
+    place.write("records/reversal.csv", ";Speed;Torque\nms;rpm;%\n0;-50;-30\n50;51;30\n");
+    let choice = "slip_velocity=rpm,friction_force=%*9.84mNm";
+    let command = ["fit", "records", "--law", "coulomb", "--columns", choice];
+    let done = place.good(&command);
+    assert_eq!((&done["n"], &done["friction_is"]), (&6.into(), &"torque".into()));
+    assert_eq!(done["units"]["residual"], "Nm");
+    assert_eq!(done["units"]["coefficient"], done["units"]["residual"]);
+    let level = done["parameters"]["coefficient"]["value"].as_f64().expect("a number");
+    assert!((level / 9.84e-3 - 0.32).abs() < 0.03, "{level}");
+    let files = done["files"].as_array().expect("a list");
+    assert_eq!(files.iter().filter(|file| file["readings"] == 2).count(), 6);
+    assert!(
+        files[6]["left_out"].as_str().is_some_and(|why| why.contains("both directions")),
+        "{files:?}"
+    );
+    let said = String::from_utf8(place.quell(&command).stdout).expect("UTF-8");
+    for words in [
+        "friction torque 0.00",
+        "No normal load was measured: friction is a torque in Nm.",
+        "friction_force = true",
+    ] {
+        assert!(said.contains(words), "{said}");
+    }
+    let friction = done["study"]["friction"].as_str().expect("text");
+    let belt = "[belt]\ndamping_ratio = 0.005\nbelt_velocity = 0.1\n";
+    place.write("study.toml", format!("{belt}{friction}"));
+    place.good(&["check", "study.toml"]);
+    let (refused, status) =
+        place.json(&["fit", "records", "--columns", "slip_velocity=rpm,friction_force=%"]);
+    assert_eq!(status, 2);
+    let message = refused["errors"][0]["message"].as_str().expect("text");
+    assert!(message.contains("steady_0.csv") || message.contains("reversal.csv"), "{message}");
+    assert!(message.contains("is in per cent"), "{message}");
+}
+
+#[test]
+fn what_a_file_holds_is_said_where_it_cannot_be_fitted() {
+    let files = [("record.csv", "t,mu\n0,0.25\n0.5,0.35\n1,0.45\n"), ("book.xlsx", "PK\u{3}\u{4}")];
+    let place = Place::with("fit-holds", &files);
+    place.write("array.npy", b"\x93NUMPY\x01\x00");
+    place.write("old.mat", [&b"MATLAB 5.0 MAT-file"[..], &[b' '; 109]].concat());
+    place.write("empty.csv", "");
+    for (file, columns, words) in [
+        (
+            "record.csv",
+            "time=t[s],coefficient=mu",
+            "a record of friction over time: 3 samples at a mean step of 0.5 s",
+        ),
+        ("record.csv", "slip_velocity=v", "which has \"t\", \"mu\" with 3 rows"),
+        ("book.xlsx", "slip_velocity=v", "this file is an archive"),
+        ("array.npy", "slip_velocity=v", "np.savetxt"),
+        ("old.mat", "slip_velocity=v", "this MATLAB file has no variables"),
+        ("empty.csv", "slip_velocity=v", "a header line of column names"),
+    ] {
+        let (refused, status) = place.json(&["fit", file, "--columns", columns]);
+        assert_eq!(status, 2, "{file}");
+        let message = refused["errors"][0]["message"].as_str().expect("text");
+        assert!(message.contains(words) && message.contains(file), "{file}: {message}");
+    }
+}

@@ -1,6 +1,7 @@
-//! CSV files that a study names: columns by name, wrong cells by line.
+//! Tables of numbers in files: columns by name, wrong cells by line.
 //!
-//! Comment lines begin with `#`; the first other line names the columns. Columns that are not requested are ignored.
+//! How a table is written (`dialect`) is found in its text. In a file that a study names the first line that is no comment has the names; a measured
+//! file may begin with the header of a recorder and give units. Columns that are not requested are ignored.
 //!
 //! A study may come from an untrusted source and may name any file: error messages show nothing of a file unless the
 //! required columns were found in it, and then only the invalid cell, truncated.
@@ -11,26 +12,90 @@ use std::path::Path;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::dialect::{self, Column, FileDialect, FoundTable, Header};
 use crate::input::read_regular;
+use crate::matlab_file;
+pub use crate::row::{Row, distinct, within};
 use crate::wrong_file::{UnreadFile, WrongTable};
 
 /// The largest file that is read, in MiB.
 pub const LARGEST: u64 = 16;
 
-/// Maximum number of characters of a cell that are shown.
-const SHOWN: usize = 24;
-
 /// How files of other programs begin, and how one of them becomes text.
 const FORMATS: &[(&[u8], &str)] = &[
-    (b"PK\x03\x04", "this file is a workbook or an archive: save its sheet as CSV"),
     (
         b"\x93NUMPY",
-        "this file is a NumPy array: np.savetxt(\"data.csv\", array, delimiter=\",\", header=\"…\", comments=\"\") writes it as CSV",
+        "this file is a NumPy array: np.savetxt(\"data.csv\", np.load(\"data.npy\"), delimiter=\",\", header=\"…\", comments=\"\") writes it \
+         as CSV with the names of its columns as header",
     ),
+    (b"\xd0\xcf\x11\xe0", WORKBOOK),
+    (
+        b"MATLAB 7.3 MAT-file",
+        "this file is a MATLAB file of version 7.3 (HDF5): save(\"data.mat\", \"-v7\") in MATLAB writes one that is read",
+    ),
+    (
+        b"\x89HDF\r\n",
+        "this file is an HDF5 file: pandas.read_hdf(\"data.h5\").to_csv(\"data.csv\", index=False) writes a table of it as CSV",
+    ),
+    (
+        b"PAR1",
+        "this file is a Parquet file: pandas.read_parquet(\"data.parquet\").to_csv(\"data.csv\", index=False) writes it as CSV",
+    ),
+    (
+        b"TDSm",
+        "this file is a TDMS file of LabVIEW: nptdms.TdmsFile(\"data.tdms\").as_dataframe().to_csv(\"data.csv\", index=False) writes it as CSV",
+    ),
+    (b"\x1f\x8b", "this file is compressed by gzip: unpack it first"),
 ];
 
-/// What may stand between columns elsewhere.
-const SEPARATORS: &[(char, &str)] = &[(';', "semicolons"), ('\t', "tabs")];
+/// How a workbook becomes text.
+const WORKBOOK: &str = "this file is a workbook of Excel: pandas.read_excel(\"data.xlsx\").to_csv(\"data.csv\", index=False) writes its first sheet as CSV";
+
+/// How an archive of NumPy arrays becomes text.
+const ARRAYS: &str = "this file is an archive of NumPy arrays: pandas.DataFrame(dict(np.load(\"data.npz\"))).to_csv(\"data.csv\", index=False) writes arrays of \
+                      one length as CSV";
+
+/// What a file of another program is, and how it becomes text.
+fn other_program(bytes: &[u8]) -> Option<&'static str> {
+    if bytes.starts_with(b"PK\x03\x04") {
+        // The name of the first entry of the archive.
+        let name = bytes.get(30..).unwrap_or_default();
+        let length = bytes.get(26..28).map_or(0, |length| usize::from(length[0]));
+        let name = &name[..length.min(name.len())];
+        return Some(match name {
+            name if name.ends_with(b".npy") => ARRAYS,
+            name if name.starts_with(b"xl/")
+                || name.starts_with(b"[Content_Types]")
+                || name.starts_with(b"_rels/") =>
+            {
+                WORKBOOK
+            }
+            _ => "this file is an archive: unpack it first; a sheet of a workbook is saved as CSV",
+        });
+    }
+    FORMATS.iter().find(|(begin, _)| bytes.starts_with(begin)).map(|(_, how)| *how)
+}
+
+/// The text of bytes: UTF-8 or UTF-16 with their mark, or Latin-1; `None` if it has control characters.
+fn decoded(bytes: Vec<u8>) -> Option<String> {
+    let wide = |bytes: &[u8], unit: fn([u8; 2]) -> u16| -> Option<String> {
+        let pairs = bytes.chunks_exact(2);
+        let whole = pairs.remainder().is_empty();
+        let units: Vec<u16> = pairs.map(|pair| unit([pair[0], pair[1]])).collect();
+        String::from_utf16(&units).ok().filter(|_| whole)
+    };
+    let text = match &bytes[..] {
+        [0xff, 0xfe, rest @ ..] => wide(rest, u16::from_le_bytes)?,
+        [0xfe, 0xff, rest @ ..] => wide(rest, u16::from_be_bytes)?,
+        _ => String::from_utf8(bytes).unwrap_or_else(|wrong| {
+            wrong.into_bytes().iter().map(|byte| char::from(*byte)).collect()
+        }),
+    };
+    let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+    let allowed =
+        |c: char| !c.is_ascii_control() || matches!(c, '\t' | '\n' | '\r' | '\u{c}' | '\u{1b}');
+    text.chars().all(allowed).then_some(text)
+}
 
 /// Reads a file as text; `what` is what it must be, such as "a CSV file of samples".
 ///
@@ -45,16 +110,44 @@ pub fn text(path: &Path, what: &'static str) -> Result<String, UnreadFile> {
 /// # Errors
 /// Why it cannot be read.
 pub fn text_up_to(path: &Path, what: &'static str, most: u64) -> Result<String, UnreadFile> {
-    let bytes = read_regular(path, most << 20).map_err(|error| UnreadFile::Unreadable {
+    as_text(bytes(path, what, most)?, what)
+}
+
+fn bytes(path: &Path, what: &'static str, most: u64) -> Result<Vec<u8>, UnreadFile> {
+    read_regular(path, most << 20).map_err(|error| UnreadFile::Unreadable {
         what,
         most,
         why: error.to_string(),
-    })?;
-    let known = FORMATS.iter().find(|(begin, _)| bytes.starts_with(begin));
-    if let Some((_, how)) = known {
+    })
+}
+
+fn as_text(bytes: Vec<u8>, what: &'static str) -> Result<String, UnreadFile> {
+    if let Some(how) = other_program(&bytes) {
         return Err(UnreadFile::OtherProgram { what, how });
     }
-    String::from_utf8(bytes).map_err(|_| UnreadFile::NotText { what })
+    decoded(bytes).ok_or(UnreadFile::NotText { what })
+}
+
+/// Reads a measured file: text, or the variables of a MATLAB file as a table.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn measured(path: &Path, what: &'static str) -> Result<MeasuredText, UnreadFile> {
+    let bytes = bytes(path, what, LARGEST)?;
+    if matlab_file::is_one(&bytes) {
+        let variables =
+            matlab_file::table(&bytes).map_err(|why| UnreadFile::Matlab { what, why })?;
+        return Ok(MeasuredText { text: variables.text, others: Some(variables.others) });
+    }
+    Ok(MeasuredText { text: as_text(bytes, what)?, others: None })
+}
+
+/// The text of a measured file.
+#[derive(Debug)]
+pub struct MeasuredText {
+    text: String,
+    /// Variables of a MATLAB file that are no columns; `None` for a text.
+    others: Option<Vec<String>>,
 }
 
 /// The 64-bit FNV-1a checksum of bytes.
@@ -64,50 +157,14 @@ pub fn checksum(bytes: &[u8]) -> u64 {
     })
 }
 
-/// Checks that no two columns have one name: which of them is meant would be a guess, and that none has a control character. Empty
-/// names may repeat.
-///
-/// # Errors
-/// The places of columns that have. Names are not shown: the file may be any.
-pub fn distinct(names: &[&str]) -> Result<(), WrongTable> {
-    if let Some(place) = names.iter().position(|name| name.contains(char::is_control)) {
-        return Err(WrongTable::ControlCharacters(place + 1));
-    }
-    let named = names.iter().enumerate().filter(|(_, name)| !name.is_empty());
-    for (place, name) in named {
-        if let Some(before) = names[..place].iter().position(|known| known == name) {
-            return Err(WrongTable::SameName([before + 1, place + 1]));
-        }
-    }
-    Ok(())
-}
-
-/// Checks that a line has no cells beyond the columns, as decimal commas add them. A comma at the end of a line adds none.
-///
-/// # Errors
-/// The line, and the numbers of cells and columns.
-pub fn within(cells: &[&str], columns: usize, line: usize) -> Result<(), WrongTable> {
-    if cells.iter().skip(columns).all(|cell| cell.trim().is_empty()) {
-        return Ok(());
-    }
-    Err(WrongTable::TooManyCells { line, cells: cells.len(), columns })
-}
-
-/// A CSV file whose columns are known.
+/// A table whose columns are known.
 #[derive(Debug)]
 pub struct DataFile<'t> {
-    names: Vec<&'t str>,
+    columns: Vec<Column<'t>>,
     rows: Vec<Row<'t>>,
-}
-
-/// A line of numbers.
-#[derive(Debug)]
-pub struct Row<'t> {
-    /// Number of the line, from 1.
-    line: usize,
-    cells: Vec<&'t str>,
-    /// Number of columns of the file.
-    columns: usize,
+    dialect: FileDialect,
+    /// Variables of a MATLAB file that are no columns.
+    others: &'t [String],
 }
 
 /// The complaint about a data file that an argument names.
@@ -133,45 +190,69 @@ pub(crate) fn reported<W: Display>(path: &Path, found: &[W]) -> Result<(), Failu
 }
 
 impl<'t> DataFile<'t> {
-    /// The columns in words, at most twelve.
+    /// The columns in words, at most twelve, and the number of rows.
     pub(crate) fn listed(&self) -> String {
-        let names: Vec<String> =
-            self.names.iter().take(12).map(|name| format!("{name:?}")).collect();
-        names.join(", ")
+        let name = |column: &Column<'_>| match &column.unit {
+            Some(unit) if column.base == column.name => format!("{:?} in {unit}", column.name),
+            _ => format!("{:?}", column.name),
+        };
+        let mut listed: Vec<String> = self.columns.iter().take(12).map(name).collect();
+        if self.columns.len() > 12 {
+            listed.push(format!("{} more", self.columns.len() - 12));
+        }
+        let others = match self.others {
+            [] => String::new(),
+            others => format!(", and {} without a column", others.join(", ")),
+        };
+        let rows = self.rows.len();
+        let ending = if rows == 1 { "" } else { "s" };
+        format!("{} with {rows} row{ending}{others}", listed.join(", "))
     }
 
-    /// Splits the text into column names and rows.
+    /// Splits the text of a file that a study names. The first line that is no comment names the columns.
     ///
     /// # Errors
-    /// If there is no header line, or if it has one name twice.
+    /// If there is no such line, if it has one name twice, and if the decimal sign changes.
     pub fn new(text: &'t str, what: &'static str) -> Result<Self, WrongTable> {
-        let mut lines = text
-            .lines()
-            .enumerate()
-            .map(|(index, line)| (index + 1, line.trim().trim_start_matches('\u{feff}')))
-            .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-        let (_, header) = lines.next().ok_or(WrongTable::NoHeader { what })?;
-        let names: Vec<&str> =
-            header.split(',').map(|name| name.trim().trim_matches('"')).collect();
-        let other = SEPARATORS.iter().find(|(mark, _)| names.len() == 1 && header.contains(*mark));
-        if let Some((_, separators)) = other {
-            return Err(WrongTable::Separators { what, separators });
+        let found = dialect::find(text, what, Header::Names)?;
+        dialect::distinct(&found.columns)?;
+        Ok(Self::of(found, &[]))
+    }
+
+    /// Splits the text of a measured file, which may begin with the header of a recorder and give units.
+    ///
+    /// # Errors
+    /// If no line names the columns, and if the decimal sign changes.
+    pub fn measured(file: &'t MeasuredText, what: &'static str) -> Result<Self, WrongTable> {
+        let found = match &file.others {
+            None => dialect::find(&file.text, what, Header::Recorder)?,
+            Some(_) => dialect::of_variables(&file.text, what)?,
+        };
+        let named = found.columns.iter().position(|column| column.name.contains(char::is_control));
+        if let Some(place) = named {
+            return Err(WrongTable::ControlCharacters(place + 1));
         }
-        distinct(&names)?;
-        let columns = names.len();
-        let rows = lines
-            .map(|(line, row)| Row {
-                line,
-                cells: row.split(',').map(str::trim).collect(),
-                columns,
-            })
-            .collect();
-        Ok(Self { names, rows })
+        Ok(Self::of(found, file.others.as_deref().unwrap_or_default()))
+    }
+
+    fn of(found: FoundTable<'t>, others: &'t [String]) -> Self {
+        let FoundTable { columns, rows, dialect } = found;
+        Self { columns, rows, dialect, others }
+    }
+
+    /// How the file is written.
+    pub fn dialect(&self) -> &FileDialect {
+        &self.dialect
+    }
+
+    /// The columns.
+    pub fn columns(&self) -> &[Column<'t>] {
+        &self.columns
     }
 
     /// Index of a column.
     pub fn column(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|known| *known == name)
+        self.columns.iter().position(|known| known.name == name)
     }
 
     /// Index of a column that must be there.
@@ -196,63 +277,13 @@ impl<'t> DataFile<'t> {
     }
 
     /// Names of the columns.
-    pub fn names(&self) -> &[&'t str] {
-        &self.names
+    pub fn names(&self) -> Vec<&'t str> {
+        self.columns.iter().map(|column| column.name).collect()
     }
 
     /// The lines of numbers.
     pub fn rows(&self) -> &[Row<'t>] {
         &self.rows
-    }
-}
-
-impl Row<'_> {
-    /// The text in a column; empty if the line is too short.
-    pub fn text(&self, at: usize) -> &str {
-        self.cells.get(at).copied().unwrap_or_default().trim_matches('"')
-    }
-
-    /// Number of the line, from 1.
-    pub fn line(&self) -> usize {
-        self.line
-    }
-
-    /// Where the row is in its file.
-    pub fn place(&self) -> String {
-        format!("line {}", self.line)
-    }
-
-    /// The number in a column, if it is `right`.
-    ///
-    /// # Errors
-    /// Line, column, the cell, and what it must be.
-    pub fn number(
-        &self,
-        at: usize,
-        name: &str,
-        allowed: &str,
-        right: impl Fn(f64) -> bool,
-    ) -> Result<f64, WrongTable> {
-        within(&self.cells, self.columns, self.line)?;
-        let cell = self.cells.get(at).copied().unwrap_or_default();
-        cell.parse().ok().filter(|&value| right(value)).ok_or_else(|| {
-            let short: String = cell.chars().take(SHOWN).collect();
-            let rest = if short.len() < cell.len() { "…" } else { "" };
-            WrongTable::Cell {
-                line: self.line,
-                column: name.to_owned(),
-                cell: format!("{short:?}{rest}"),
-                allowed: allowed.to_owned(),
-            }
-        })
-    }
-
-    /// Whether the number in a column is below 0.
-    pub fn is_negative(&self, at: usize) -> bool {
-        self.cells
-            .get(at)
-            .and_then(|cell| cell.parse::<f64>().ok())
-            .is_some_and(|number| number < 0.0)
     }
 }
 
@@ -273,16 +304,31 @@ mod tests {
             Ok(DataFile::new(&text, "a CSV file of numbers").map(|_| ())?)
         };
         for (bytes, wanted) in [
-            (&b"velocity;coefficient\n0,1;0,4\n"[..], "this file has semicolons"),
-            (b"velocity\tcoefficient\n0.1\t0.4\n", "this file has tabs"),
-            (b"PK\x03\x04\x14\x00", "save its sheet as CSV"),
+            (&b"PK\x03\x04\x14\x00"[..], "an archive: unpack it"),
+            (b"PK\x03\x04\x14\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x13\0\0\0[Content_Types].xml", "pandas.read_excel"),
+            (b"PK\x03\x04\x14\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x05\0\0\0F.npyx", "np.load(\"data.npz\")"),
             (b"\x93NUMPY\x01\x00", "np.savetxt"),
+            (b"\xd0\xcf\x11\xe0\xa1", "pandas.read_excel"),
+            (b"MATLAB 7.3 MAT-file", "-v7"),
             (b"\xff\xfe\x00", "is not text"),
+            (b"v,mu\n0.1,\x000.4\n", "is not text"),
         ] {
             let why = why(bytes).expect_err(wanted).to_string();
             assert!(why.starts_with("a CSV file of numbers") && why.contains(wanted), "{why}");
         }
         assert_eq!(why(b"velocity,coefficient\n0.1,0.4\n"), Ok(()));
+        // The mark of UTF-8, Latin-1 and UTF-16.
+        assert_eq!(why(b"\xef\xbb\xbfvelocity;coefficient\r\n0,1;0,4\r\n"), Ok(()));
+        std::fs::write(&path, b"t (\xb5s),a (m/s\xb2)\n1,2\n").expect("written");
+        assert_eq!(text(&path, "a table").expect("Latin-1"), "t (µs),a (m/s²)\n1,2\n");
+        std::fs::write(&path, b"\xff\xfev\0\n\x001\0\n\0").expect("written");
+        assert_eq!(text(&path, "a table").expect("UTF-16"), "v\n1\n");
+        // A file that is too large is not read.
+        std::fs::File::create(&path)
+            .and_then(|file| file.set_len((LARGEST << 20) + 1))
+            .expect("a hole");
+        let large = text(&path, "a table").expect_err("large").to_string();
+        assert!(large.contains("larger than 16 MiB"), "{large}");
         // One column is a file too.
         assert_eq!(why(b"velocity\n0.1\n"), Ok(()));
     }

@@ -1,28 +1,29 @@
-//! Measured time series and spectra in CSV files.
+//! Measured time series and spectra.
 //!
 //! | column | |
 //! |---|---|
-//! | `time`, `time_s`, `time_ms`, `time_us` | ascending; without a suffix in the unit of the study |
-//! | `displacement`, `displacement_m`, `…_mm`, `…_um` | or |
-//! | `velocity`, `velocity_m_per_s`, `velocity_mm_per_s` | or |
-//! | `acceleration`, `acceleration_m_per_s2`, `acceleration_g` | or any column that the request names with its quantity |
-//! | `frequency_hz` or `frequency` | of a spectrum, in place of a time |
+//! | `time` | ascending |
+//! | `displacement`, `velocity` or `acceleration` | or any column that the request names with its quantity |
+//! | `frequency` | of a spectrum, in place of a time |
 //! | `level_db` or `level`, or `amplitude`, or a quantity as above | of its lines: decibels re 1 unit, or amplitudes (half peak-to-peak) |
 //!
-//! Numbers with a suffix are converted to SI. Every invalid cell is reported with its line.
+//! Units are those of [`crate::columns`], as suffix of the name (`time_ms`), at its end or in a line: such numbers are converted to SI. Lines with a gap are
+//! left out. Every invalid cell is reported with its line.
 
 use std::path::{Path, PathBuf};
 
 use quell_model::RecordedQuantity;
 use quell_numerics::order::ascending;
 
+use crate::columns::{ColumnChoice, FoundColumn, WantedColumn};
 use crate::complaint::{Complaint, Failure};
 use crate::data_file::{self, DataFile, complaint, reported};
+use crate::dialect::FileDialect;
 use crate::input::Inputs;
 use crate::nearest;
 use crate::wrong_file::WrongTable;
 
-const WHAT: &str = "a CSV file of a measured record";
+const WHAT: &str = "a file of a measured record";
 
 /// The most samples: a fit holds some tens of numbers for each.
 pub const MOST_SAMPLES: usize = 500_000;
@@ -36,60 +37,22 @@ const GAP: f64 = 1.5;
 /// Largest distance of a time from the grid of equal steps, in steps: times are printed with few digits.
 const UNEVEN: f64 = 0.1;
 
-/// An SI unit, and how many of them one number is.
-type SiUnit = (&'static str, f64);
+/// Times.
+pub(crate) const TIME: WantedColumn = WantedColumn { names: &["time"], units: &["s"] };
+const FREQUENCY: WantedColumn = WantedColumn { names: &["frequency"], units: &["Hz"] };
+const LEVEL: WantedColumn = WantedColumn { names: &["level_db", "level"], units: &[] };
+const AMPLITUDE: WantedColumn = WantedColumn { names: &["amplitude"], units: &[] };
 
-/// A name of a column and its unit; `None` without one.
-type NamedUnit = (&'static str, Option<SiUnit>);
-
-/// A column that a file has: its place, its name and its unit.
-type FoundColumn = (usize, &'static str, Option<SiUnit>);
-
-const TIMES: &[NamedUnit] = &[
-    ("time_s", Some(("s", 1.0))),
-    ("time_ms", Some(("s", 1e-3))),
-    ("time_us", Some(("s", 1e-6))),
-    ("time", None),
+/// Readings.
+const QUANTITIES: [(RecordedQuantity, WantedColumn); 3] = [
+    (RecordedQuantity::Displacement, WantedColumn { names: &["displacement"], units: &["m"] }),
+    (RecordedQuantity::Velocity, WantedColumn { names: &["velocity"], units: &["m/s"] }),
+    (RecordedQuantity::Acceleration, WantedColumn { names: &["acceleration"], units: &["m/s²"] }),
 ];
 
-const FREQUENCIES: &[NamedUnit] = &[("frequency_hz", Some(("Hz", 1.0))), ("frequency", None)];
-
-const LEVELS: &[&str] = &["level_db", "level"];
-
-const AMPLITUDE: &str = "amplitude";
-
-/// Standard acceleration of gravity, m/s².
-const GRAVITY: f64 = 9.806_65;
-
-/// Columns of a quantity.
-const QUANTITIES: &[(RecordedQuantity, &[NamedUnit])] = &[
-    (
-        RecordedQuantity::Displacement,
-        &[
-            ("displacement_m", Some(("m", 1.0))),
-            ("displacement_mm", Some(("m", 1e-3))),
-            ("displacement_um", Some(("m", 1e-6))),
-            ("displacement", None),
-        ],
-    ),
-    (
-        RecordedQuantity::Velocity,
-        &[
-            ("velocity_m_per_s", Some(("m/s", 1.0))),
-            ("velocity_mm_per_s", Some(("m/s", 1e-3))),
-            ("velocity", None),
-        ],
-    ),
-    (
-        RecordedQuantity::Acceleration,
-        &[
-            ("acceleration_m_per_s2", Some(("m/s²", 1.0))),
-            ("acceleration_mm_per_s2", Some(("m/s²", 1e-3))),
-            ("acceleration_g", Some(("m/s²", GRAVITY))),
-            ("acceleration", None),
-        ],
-    ),
-];
+/// The quantities of a record or a spectrum.
+pub const COLUMNS: [WantedColumn; 7] =
+    [TIME, QUANTITIES[0].1, QUANTITIES[1].1, QUANTITIES[2].1, FREQUENCY, LEVEL, AMPLITUDE];
 
 /// How a file is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,11 +65,19 @@ pub struct RecordRequest {
     pub gain: f64,
     /// The part of the record between two of its times.
     pub window: Option<(f64, f64)>,
+    /// Columns by other names.
+    pub columns: ColumnChoice,
 }
 
 impl Default for RecordRequest {
     fn default() -> Self {
-        Self { column: None, quantity: None, gain: 1.0, window: None }
+        Self {
+            column: None,
+            quantity: None,
+            gain: 1.0,
+            window: None,
+            columns: ColumnChoice::default(),
+        }
     }
 }
 
@@ -120,8 +91,9 @@ impl RecordRequest {
         quantity: Option<&str>,
         gain: Option<&str>,
         window: Option<&str>,
+        columns: &[String],
     ) -> Result<Self, Failure> {
-        let mut wrong = Vec::new();
+        let mut wrong: Vec<Complaint> = Vec::new();
         let mut request = Self { column: column.map(str::to_owned), ..Self::default() };
         if let Some(name) = quantity {
             request.quantity =
@@ -151,6 +123,11 @@ impl RecordRequest {
                 wrong.push(Complaint::option("--window", text, allowed));
             }
         }
+        match ColumnChoice::new(columns, &COLUMNS) {
+            Ok(columns) => request.columns = columns,
+            Err(Failure::Wrong(complaints)) => wrong.extend(complaints),
+            Err(why) => return Err(why),
+        }
         if wrong.is_empty() { Ok(request) } else { Err(wrong.into()) }
     }
 }
@@ -173,6 +150,8 @@ pub struct TimeSeries {
     pub time_unit: Option<&'static str>,
     /// SI unit of the readings; `None` without one.
     pub unit: Option<&'static str>,
+    /// How the file was read.
+    pub read: FileDialect,
 }
 
 /// A measured spectrum.
@@ -191,6 +170,8 @@ pub struct MeasuredSpectrum {
     pub frequency_unit: Option<&'static str>,
     /// SI unit of the amplitudes; `None` without one.
     pub unit: Option<&'static str>,
+    /// How the file was read.
+    pub read: FileDialect,
 }
 
 /// A measured time series or spectrum.
@@ -208,13 +189,25 @@ impl MeasuredFile {
     /// # Errors
     /// Complaints about a file that cannot be read, missing columns, and every invalid cell.
     pub fn read(path: &Path, request: &RecordRequest) -> Result<Self, Failure> {
-        let text = data_file::text(path, WHAT).map_err(|why| complaint(path, why))?;
-        let file = DataFile::new(&text, WHAT).map_err(|why| complaint(path, why))?;
-        let has = |names: &[NamedUnit]| names.iter().any(|(name, _)| file.column(name).is_some());
-        if has(FREQUENCIES) && !has(TIMES) {
-            return read_spectrum(path, &file, request).map(Self::Spectrum);
+        let text = data_file::measured(path, WHAT).map_err(|why| complaint(path, why))?;
+        let file = DataFile::measured(&text, WHAT).map_err(|why| complaint(path, why))?;
+        let find = |wanted: WantedColumn| {
+            let found = wanted.find(&file, &request.columns);
+            found.map_err(|why| Failure::from(complaint(path, why)))
+        };
+        match (find(TIME)?, find(FREQUENCY)?) {
+            (None, Some(frequency)) => {
+                read_spectrum(path, &file, frequency, request).map(Self::Spectrum)
+            }
+            (Some(time), _) => read_record(path, &file, time, request).map(Self::Record),
+            (None, None) => {
+                let has = file.listed();
+                let why = format!(
+                    "{WHAT} with a column time or time_s, or one that --columns time=NAME names; it has {has}"
+                );
+                Err(complaint(path, why).into())
+            }
         }
-        read_record(path, &file, request).map(Self::Record)
     }
 
     /// The file.
@@ -313,60 +306,61 @@ impl TimeSeries {
 fn read_record(
     path: &Path,
     file: &DataFile<'_>,
+    time: FoundColumn,
     request: &RecordRequest,
 ) -> Result<TimeSeries, Failure> {
     let wrong = |why: String| complaint(path, why);
-    let (time_at, time_name, time_factor) = first_of(file, TIMES).ok_or_else(|| {
-        wrong(format!("{WHAT} with a column time, time_s or time_ms; it has {}", file.listed()))
-    })?;
-    let value = reading_column(path, file, request)?;
+    let (quantity, value) = reading_column(path, file, request)?;
     if file.rows().len() > MOST_SAMPLES {
         let count = file.rows().len();
         let why =
             format!("it has {count} samples, and at most {MOST_SAMPLES} are read: leave some out");
         return Err(wrong(why).into());
     }
+    let factor = request.gain * value.factor;
     let mut record = TimeSeries {
         path: path.to_owned(),
         times: Vec::new(),
         values: Vec::new(),
         lines: Vec::new(),
-        quantity: value.quantity,
-        columns: [time_name.to_owned(), value.name.clone()],
-        time_unit: time_factor.map(|(unit, _)| unit),
-        unit: value.unit.map(|(unit, _)| unit),
+        quantity,
+        columns: [time.name, value.name],
+        time_unit: time.unit,
+        unit: value.unit,
+        read: file.dialect().clone(),
     };
-    let (time_factor, factor) =
-        (time_factor.map_or(1.0, |(_, factor)| factor), value.factor(request.gain));
     let mut found = Vec::new();
     let mut last: Option<f64> = None;
     for row in file.rows() {
-        let time = row.number(time_at, time_name, "a finite number", f64::is_finite);
-        let reading = row.number(value.at, &value.name, "a finite number", f64::is_finite);
-        if let (Ok(time), Some(last)) = (&time, last)
+        let own = row.reading(time.at, &record.columns[0], "a finite number", |_| true);
+        let reading = row.reading(value.at, &record.columns[1], "a finite number", |_| true);
+        if let (Ok(Some(time)), Some(last)) = (&own, last)
             && *time <= last
         {
             found.push(WrongTable::Cell {
                 line: row.line(),
-                column: time_name.to_owned(),
+                column: record.columns[0].clone(),
                 cell: time.to_string(),
                 allowed: format!("above the time of the line before, {last}"),
             });
         }
-        last = time.as_ref().ok().copied().or(last);
-        match (time, reading) {
-            (Ok(time), Ok(reading)) => {
-                let time = time_factor * time;
-                let inside = request.window.is_none_or(|(from, to)| (from..=to).contains(&time));
+        last = own.as_ref().ok().copied().flatten().or(last);
+        match (own, reading) {
+            (Ok(Some(own)), Ok(Some(reading))) => {
+                let own = time.factor * own;
+                let inside = request.window.is_none_or(|(from, to)| (from..=to).contains(&own));
                 if inside {
-                    record.times.push(time);
+                    record.times.push(own);
                     record.values.push(factor * reading);
                     record.lines.push(row.line());
                 }
             }
-            (time, reading) => found.extend([time.err(), reading.err()].into_iter().flatten()),
+            (Ok(_), Ok(_)) => record.read.left_out_lines.push(row.line()),
+            (own, reading) => found.extend([own.err(), reading.err()].into_iter().flatten()),
         }
     }
+    // A line with too many cells is wrong once, not once a column.
+    found.dedup();
     reported(path, &found)?;
     if record.times.len() < LEAST_SAMPLES {
         let part = if request.window.is_some() { " in the window" } else { "" };
@@ -380,44 +374,49 @@ fn read_record(
 fn read_spectrum(
     path: &Path,
     file: &DataFile<'_>,
+    frequency: FoundColumn,
     request: &RecordRequest,
 ) -> Result<MeasuredSpectrum, Failure> {
     let wrong = |why: String| complaint(path, why);
-    let (at, name, unit) = first_of(file, FREQUENCIES).ok_or_else(|| {
-        wrong(format!("a spectrum with a column frequency_hz; it has {}", file.listed()))
-    })?;
-    let level = LEVELS.iter().find_map(|name| Some((file.column(name)?, *name)));
-    let plain = file.column(AMPLITUDE).map(|at| (at, AMPLITUDE));
-    let named = level.or(plain).filter(|_| request.column.is_none());
-    let value = match named {
-        Some((at, name)) => ReadingColumn {
-            at,
-            name: name.to_owned(),
-            quantity: request.quantity.unwrap_or(RecordedQuantity::Displacement),
-            unit: None,
-        },
+    let find = |wanted: WantedColumn| {
+        let named = request.column.is_none();
+        let found = if named { wanted.find(file, &request.columns) } else { Ok(None) };
+        found.map_err(|why| Failure::from(wrong(why.to_string())))
+    };
+    let level = find(LEVEL)?;
+    let in_decibels = level.is_some();
+    let named = match level {
+        None => find(AMPLITUDE)?,
+        level => level,
+    };
+    let (quantity, value) = match named {
+        Some(value) => (request.quantity.unwrap_or(RecordedQuantity::Displacement), value),
         None => reading_column(path, file, request)?,
     };
-    let in_decibels = LEVELS.contains(&value.name.as_str());
-    let factor = value.factor(request.gain.abs());
+    let (at, name) = (frequency.at, frequency.name);
+    let in_decibels = in_decibels || LEVEL.names_it(&file.columns()[value.at]);
+    let factor = request.gain.abs() * value.factor;
+    let mut read = file.dialect().clone();
     let (mut frequencies, mut amplitudes, mut found) = (Vec::new(), Vec::new(), Vec::new());
     for row in file.rows() {
         let above = frequencies.last().copied().unwrap_or(-1.0);
-        let right = |value: f64| value.is_finite() && value >= 0.0 && value > above;
-        let frequency =
-            row.number(at, name, "a finite number ≥ 0 above that of the line before", right);
-        let amplitude = row.number(value.at, &value.name, "a finite number", f64::is_finite);
-        match (frequency, amplitude) {
-            (Ok(frequency), Ok(reading)) => {
+        let allowed = "a finite number ≥ 0 above that of the line before";
+        let own = row.reading(at, &name, allowed, |value| {
+            let value = frequency.factor * value;
+            value >= 0.0 && value > above
+        });
+        let amplitude = row.reading(value.at, &value.name, "a finite number", |_| true);
+        match (own, amplitude) {
+            (Ok(Some(own)), Ok(Some(reading))) => {
                 let linear = if in_decibels { libm::pow(10.0, reading / 20.0) } else { reading };
-                frequencies.push(frequency);
+                frequencies.push(frequency.factor * own);
                 amplitudes.push(factor * linear);
             }
-            (frequency, amplitude) => {
-                found.extend([frequency.err(), amplitude.err()].into_iter().flatten());
-            }
+            (Ok(_), Ok(_)) => read.left_out_lines.push(row.line()),
+            (own, amplitude) => found.extend([own.err(), amplitude.err()].into_iter().flatten()),
         }
     }
+    found.dedup();
     reported(path, &found)?;
     if frequencies.len() < LEAST_SAMPLES {
         let why =
@@ -428,76 +427,52 @@ fn read_spectrum(
         path: path.to_owned(),
         frequencies,
         amplitudes,
-        quantity: value.quantity,
-        columns: [name.to_owned(), value.name],
-        frequency_unit: unit.map(|(unit, _)| unit),
-        unit: value.unit.map(|(unit, _)| unit),
+        quantity,
+        columns: [name, value.name],
+        frequency_unit: frequency.unit,
+        unit: value.unit,
+        read,
     })
 }
 
-/// The column of readings.
-struct ReadingColumn {
-    at: usize,
-    name: String,
-    quantity: RecordedQuantity,
-    unit: Option<SiUnit>,
-}
-
-impl ReadingColumn {
-    fn factor(&self, gain: f64) -> f64 {
-        gain * self.unit.map_or(1.0, |(_, factor)| factor)
-    }
-}
-
+/// The column of readings, and what it shows.
 fn reading_column(
     path: &Path,
     file: &DataFile<'_>,
     request: &RecordRequest,
-) -> Result<ReadingColumn, Failure> {
-    let known = |name: &str| {
-        QUANTITIES.iter().find_map(|(quantity, columns)| {
-            let (_, unit) = columns.iter().find(|(column, _)| *column == name)?;
-            Some((*quantity, *unit))
-        })
-    };
+) -> Result<(RecordedQuantity, FoundColumn), Failure> {
+    let wrong = |why: String| Failure::from(complaint(path, why));
     if let Some(name) = &request.column {
         let Some(at) = file.column(name) else {
             let allowed = format!("a column of the file: {}", file.listed());
-            let nearest = nearest::word(name, file.names().iter().copied());
+            let nearest = nearest::word(name, file.names());
             let complaint = Complaint::option("--column", name.as_str(), allowed);
             return Err(complaint.suggesting(nearest).into());
         };
-        let (quantity, unit) = match (request.quantity, known(name)) {
-            (Some(quantity), Some((own, unit))) if quantity == own => (quantity, unit),
-            (Some(quantity), _) => (quantity, None),
-            (None, Some(found)) => found,
-            (None, None) => {
-                let allowed = "given with --quantity displacement, velocity or acceleration: the name of the column does not say it";
-                return Err(Complaint::option("--column", name.as_str(), allowed).into());
-            }
+        let named = QUANTITIES.iter().find(|(_, wanted)| wanted.names_it(&file.columns()[at]));
+        let own = named.map(|(quantity, _)| *quantity);
+        let Some(quantity) = request.quantity.or(own) else {
+            let allowed = "given with --quantity displacement, velocity or acceleration: the name of the column does not say it";
+            return Err(Complaint::option("--column", name.as_str(), allowed).into());
         };
-        return Ok(ReadingColumn { at, name: name.clone(), quantity, unit });
+        let wanted = QUANTITIES.iter().find(|(known, _)| *known == quantity);
+        let (_, wanted) = wanted.ok_or_else(|| wrong(WHAT.to_owned()))?;
+        let found = wanted.at(file, at).map_err(|why| wrong(why.to_string()))?;
+        return Ok((quantity, found));
     }
-    let wanted = |quantity: RecordedQuantity| request.quantity.is_none_or(|own| own == quantity);
-    let found = QUANTITIES.iter().filter(|(quantity, _)| wanted(*quantity)).find_map(
-        |(quantity, columns)| {
-            let (at, name, unit) = first_of(file, columns)?;
-            Some(ReadingColumn { at, name: name.to_owned(), quantity: *quantity, unit })
-        },
-    );
-    found.ok_or_else(|| {
-        let why = format!(
-            "{WHAT} with a column displacement, velocity or acceleration (with _m, _m_per_s or _m_per_s2 in SI), or one named by \
-             --column with --quantity; it has {}",
-            file.listed()
-        );
-        complaint(path, why).into()
-    })
-}
-
-/// The first of these columns that the file has.
-fn first_of(file: &DataFile<'_>, names: &[NamedUnit]) -> Option<FoundColumn> {
-    names.iter().find_map(|(name, unit)| Some((file.column(name)?, *name, *unit)))
+    for (quantity, wanted) in &QUANTITIES {
+        if request.quantity.is_some_and(|own| own != *quantity) {
+            continue;
+        }
+        let found = wanted.find(file, &request.columns).map_err(|why| wrong(why.to_string()))?;
+        if let Some(found) = found {
+            return Ok((*quantity, found));
+        }
+    }
+    Err(wrong(format!(
+        "{WHAT} with a column displacement, velocity or acceleration, or one that --columns velocity=NAME names; it has {}",
+        file.listed()
+    )))
 }
 
 #[cfg(test)]
@@ -547,8 +522,7 @@ mod tests {
         let said =
             read("c.csv", &back, &RecordRequest::default()).expect_err("backwards").to_string();
         assert!(said.contains("line 6") && said.contains("above"), "{said}");
-        let invalid =
-            rows("time,velocity", |k| format!("{k},{}", if k == 5 { "nan" } else { "1" }));
+        let invalid = rows("time,velocity", |k| format!("{k},{}", if k == 5 { "x" } else { "1" }));
         let said = read("d.csv", &invalid, &RecordRequest::default())
             .expect_err("not a number")
             .to_string();
@@ -573,5 +547,35 @@ mod tests {
         };
         assert_eq!(spectrum.frequency_unit, Some("Hz"));
         assert!((spectrum.amplitudes[2] / 100.0 - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn columns_have_other_names_and_gaps_are_left_out() {
+        let text = rows("t,ch1", |k| {
+            format!("{k},{}", if k == 3 { String::new() } else { k.to_string() })
+        });
+        let columns = ["time=t[ms]".to_owned(), "velocity=ch1[mm/s]".to_owned()];
+        let request = RecordRequest::new(None, None, None, None, &columns).expect("valid");
+        let Ok(MeasuredFile::Record(record)) = read("h.csv", &text, &request) else {
+            panic!("a record")
+        };
+        assert_eq!((record.time_unit, record.unit), (Some("s"), Some("m/s")));
+        assert_eq!((record.times.len(), &record.read.left_out_lines[..]), (9, &[5][..]));
+        assert!((record.values[8] - 9e-3).abs() < 1e-17 && (record.times[8] - 9e-3).abs() < 1e-17);
+        assert_eq!(record.gaps(), [4]);
+        let other = ["slip_velocity=ch1".to_owned()];
+        let said =
+            RecordRequest::new(None, None, None, None, &other).expect_err("another quantity");
+        assert!(said.to_string().contains("one of time, displacement"), "{said}");
+        let said =
+            read("i.csv", &text, &RecordRequest::default()).expect_err("no time").to_string();
+        assert!(said.contains("--columns time=NAME names; it has \"t\", \"ch1\""), "{said}");
+        // A unit of another quantity in a line.
+        let units = text.replace("t,ch1\n", "time,velocity\nms,rpm\n");
+        let said = read("j.csv", &units, &RecordRequest::default()).expect_err("rpm").to_string();
+        assert!(
+            said.contains("the column velocity is in rpm; velocity is read in units of m/s"),
+            "{said}"
+        );
     }
 }

@@ -4,6 +4,8 @@
 
 use std::fmt;
 
+use crate::matlab_file::WrongMatlab;
+
 /// Why the text of a file is unknown.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum UnreadFile {
@@ -28,6 +30,13 @@ pub enum UnreadFile {
         /// What it must be.
         what: &'static str,
     },
+    /// It is a MATLAB file that cannot be read.
+    Matlab {
+        /// What it must be.
+        what: &'static str,
+        /// Why.
+        why: WrongMatlab,
+    },
 }
 
 /// What is wrong with the columns or a cell of a CSV file.
@@ -38,12 +47,34 @@ pub enum WrongTable {
         /// What the file must be.
         what: &'static str,
     },
-    /// Columns are separated by something else than commas.
-    Separators {
+    /// Nothing names the columns of the numbers.
+    NoNames {
         /// What the file must be.
         what: &'static str,
-        /// The separators.
-        separators: &'static str,
+        /// The first line of numbers, from 1.
+        line: usize,
+    },
+    /// A number has a decimal point and a comma.
+    TwoSigns {
+        /// The line, from 1.
+        line: usize,
+    },
+    /// The decimal sign is another one than before.
+    OtherSign {
+        /// The line, from 1.
+        line: usize,
+        /// The first line with the other sign.
+        first: usize,
+    },
+    /// A LabVIEW measurement file has a second segment.
+    SecondSegment {
+        /// The line, from 1.
+        line: usize,
+    },
+    /// A LabVIEW measurement file has no times, or several.
+    NoTimes {
+        /// The line, from 1.
+        line: usize,
     },
     /// The name of a column, counted from 1, has control characters.
     ControlCharacters(usize),
@@ -57,6 +88,15 @@ pub enum WrongTable {
     BothFrequencies,
     /// A line has cells beyond the columns.
     TooManyCells {
+        /// The line, from 1.
+        line: usize,
+        /// Number of its cells.
+        cells: usize,
+        /// Number of columns.
+        columns: usize,
+    },
+    /// A line ends before its last column.
+    TooFewCells {
         /// The line, from 1.
         line: usize,
         /// Number of its cells.
@@ -108,6 +148,7 @@ impl fmt::Display for UnreadFile {
             }
             Self::OtherProgram { what, how } => write!(f, "{what}; {how}"),
             Self::NotText { what } => write!(f, "{what}; this file is not text"),
+            Self::Matlab { what, why } => write!(f, "{what}; this MATLAB file {why}"),
         }
     }
 }
@@ -116,9 +157,29 @@ impl fmt::Display for WrongTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoHeader { what } => write!(f, "{what} with a header line of column names"),
-            Self::Separators { what, separators } => write!(
+            Self::NoNames { what, line } => write!(
                 f,
-                "{what} with commas between its columns; this file has {separators}, and its numbers need a decimal point"
+                "{what} with a line of column names; it has numbers from line {line} on and no names before them"
+            ),
+            Self::TwoSigns { line } => write!(
+                f,
+                "line {line}: a number has a comma and a point, one of which separates thousands: write it without thousands"
+            ),
+            Self::OtherSign { line, first } if line == first => write!(
+                f,
+                "line {line}: a number with a decimal point and one with a decimal comma; one of the two may separate thousands"
+            ),
+            Self::OtherSign { line, first } => write!(
+                f,
+                "line {line}: another decimal sign than in line {first}; one of the two may separate thousands"
+            ),
+            Self::SecondSegment { line } => write!(
+                f,
+                "line {line}: a second segment of a LabVIEW measurement file begins: keep one segment in a file"
+            ),
+            Self::NoTimes { line } => write!(
+                f,
+                "line {line}: a LabVIEW measurement file with one column of times (X_Columns One) is read"
             ),
             Self::ControlCharacters(column) => write!(
                 f,
@@ -135,7 +196,12 @@ impl fmt::Display for WrongTable {
             ),
             Self::TooManyCells { line, cells, columns } => write!(
                 f,
-                "line {line}: {cells} cells for {columns} columns; numbers have a decimal point, not a comma"
+                "line {line}: {cells} cells for {columns} columns; between commas numbers have a decimal point, not a comma"
+            ),
+            Self::TooFewCells { line, cells, columns } => write!(
+                f,
+                "line {line}: {cells} cell{} for {columns} columns",
+                if *cells == 1 { "" } else { "s" }
             ),
             Self::Cell { line, column, cell, allowed } => {
                 write!(f, "line {line}, {column}: {cell} must be {allowed}")

@@ -17,11 +17,12 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// CSV file with time (time_s) and displacement, velocity or acceleration, or with frequency_hz and level
-    #[arg(value_name = "MEASURED.csv", value_hint = ValueHint::FilePath)]
+    /// File with time (time_s) and displacement, velocity or acceleration, or with frequency_hz and level: CSV, LabVIEW (.lvm) or
+    /// MATLAB (.mat)
+    #[arg(value_name = "MEASURED", value_hint = ValueHint::FilePath)]
     measured: PathBuf,
     /// File measured under dither; the first one is then without dither
-    #[arg(long, value_name = "MEASURED.csv", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "MEASURED", value_hint = ValueHint::FilePath)]
     after: Option<PathBuf>,
     #[command(flatten)]
     record: RecordArguments,
@@ -37,6 +38,10 @@ pub(crate) struct Arguments {
 /// How a measured file is read.
 #[derive(Debug, Args)]
 pub(crate) struct RecordArguments {
+    /// Columns by other names, such as slip_velocity=V,friction_force=F, by their unit where no name is, with a unit that the file does not
+    /// give, slip_velocity=V[mm/s], and with a factor, friction_force=%*9.84mNm
+    #[arg(long, value_name = "QUANTITY=COLUMN,…", value_delimiter = ',')]
+    pub(crate) columns: Vec<String>,
     /// Column of the record [default: the first of displacement, velocity and acceleration]
     #[arg(long, value_name = "NAME")]
     column: Option<String>,
@@ -59,6 +64,7 @@ impl RecordArguments {
             self.quantity.as_deref(),
             self.gain.as_deref(),
             self.window.as_deref(),
+            &self.columns,
         )
     }
 

@@ -18,9 +18,10 @@ use crate::interrupt;
 /// Fits friction laws to measured coefficients, a free decay, or a study to a record, with standard errors
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// CSV file with slip_velocity (or slip_velocity_m_per_s) and coefficient, or friction_force and normal_load; with --decay and --record
-    /// with time (time_s) and displacement, velocity or acceleration
-    #[arg(value_name = "DATA.csv", value_hint = ValueHint::FilePath)]
+    /// File with slip_velocity and coefficient, or friction_force and normal_load, units in the names (slip_velocity_mm_per_s) or in a line;
+    /// without a load friction is a force. A folder of records at steady speed is a point for each. With --decay and --record a file with time
+    /// and displacement, velocity or acceleration. CSV, LabVIEW (.lvm) or MATLAB (.mat)
+    #[arg(value_name = "DATA", value_hint = ValueHint::FilePath)]
     data: PathBuf,
     /// Law to fit, several times to compare laws: stribeck, decreasing, coulomb, stribeck-exponential, lugre or all; of a decay viscous,
     /// coulomb, viscous-coulomb or all [default: all]
@@ -70,7 +71,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     let mut complaints = Gathered::default();
     let inputs = inputs(&arguments.data);
-    let request = complaints.take(FitRequest::new(&arguments.law, &arguments.free, &arguments.fix));
+    let request = complaints.take(FitRequest::new(
+        &arguments.law,
+        &arguments.free,
+        &arguments.fix,
+        &arguments.record.columns,
+    ));
     let outputs = complaints.take(arguments.output.prepare(&["points"], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let given = complaints.take(arguments.without_record());
@@ -158,7 +164,7 @@ impl Arguments {
             return Ok(());
         }
         let wrong = given.into_iter().map(|(option, text)| {
-            let allowed = "given with --decay or --record, which read a record";
+            let allowed = "given with --decay or --record, which read a record; --columns takes columns of points";
             Complaint::new(Fault::Conflict, option, Origin::Argument(option), text, allowed)
         });
         Err(wrong.collect::<Vec<_>>().into())

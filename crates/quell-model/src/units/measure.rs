@@ -36,6 +36,7 @@ const SYMBOLS: &[Symbol] = &[
     ("min", 0, [60.0, 1.0], [0, 0, 1, 0, 0], false),
     ("h", 0, [3600.0, 1.0], [0, 0, 1, 0, 0], false),
     ("N", 0, [1.0, 1.0], [1, 1, -2, 0, 0], true),
+    ("Nm", 0, [1.0, 1.0], [1, 2, -2, 0, 0], true),
     ("Ns", 0, [1.0, 1.0], [1, 1, -1, 0, 0], true),
     ("Pa", 0, [1.0, 1.0], [1, -1, -2, 0, 0], true),
     ("W", 0, [1.0, 1.0], [1, 2, -3, 0, 0], true),
@@ -118,6 +119,19 @@ pub fn convert(value: f64, from: &str, to: &str) -> Option<f64> {
     let tens = libm::pow(10.0, f64::from(from.ten - to.ten));
     let size = tens * (from.over * to.under) / (from.under * to.over);
     (from.dimension == to.dimension).then_some(value * size)
+}
+
+/// Whether a text is a unit.
+pub fn is_unit(text: &str) -> bool {
+    !text.trim().is_empty() && Unit::parse(text).is_some()
+}
+
+/// Splits a finite number from the text after it, which may be a unit; `None` if it does not start with a number.
+pub fn split(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let (number, unit) = text.split_at(length_of_number(text));
+    let number: f64 = number.parse().ok().filter(|number: &f64| number.is_finite())?;
+    Some((number, unit.trim()))
 }
 
 /// A number with a unit multiplied by a factor, in the same unit; `None` if the text is something else.
@@ -277,6 +291,8 @@ mod tests {
             ("5 V·s/A", "mH", 5000.0),
             ("8Ohm", "V/A", 8.0),
             ("24 N/A", "N/A", 24.0),
+            ("9.84mNm", "N m", 9.84e-3),
+            ("32 % kNm", "Nm", 320.0),
             ("0.1", "N", 0.1),
             ("1e3", "Hz", 1e3),
             ("3 cm", "m", 0.03),

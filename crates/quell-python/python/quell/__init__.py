@@ -44,7 +44,7 @@ from ._laws import (
     StudyFriction,
 )
 from ._quell import __version__
-from ._record import names_of, record_of
+from ._record import columns_of, names_of, record_of
 from ._study import Study
 from ._profile import Profile
 from ._system import Component, Contact, Contacts, System, SystemDither, SystemInitial, SystemMode
@@ -171,13 +171,14 @@ def fit(
     quantity: str | None = None,
     gain: float | None = None,
     window: tuple[float, float] | None = None,
+    columns: Mapping[str, str] | None = None,
 ) -> dict[str, Any]:
     """Fits friction laws to measured coefficients, a free decay, or a study to a record, with standard errors.
 
     Parameters
     ----------
     data :
-        CSV file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``; with
+        CSV, LabVIEW or MATLAB file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``; with
         ``decay`` and ``record`` with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``.
     law :
         Names of laws, or "all" [default: "all"]: :func:`fit_laws` returns their fit with arrays and a picture.
@@ -193,7 +194,7 @@ def fit(
         Study of ``record``.
     settle :
         Time before the record, of ``record``.
-    column, quantity, gain, window :
+    column, quantity, gain, window, columns :
         How a record is read, as in :func:`fit_decay`.
 
     Returns
@@ -210,19 +211,19 @@ def fit(
             if value is not None:
                 arguments.wrong.append(complaint(name, str(value), "left out with decay", "conflict"))
         arguments.done()
-        return fit_decay(data, law=law, fix=fix, **given).to_dict()  # type: ignore[arg-type]
+        return fit_decay(data, law=law, fix=fix, columns=columns, **given).to_dict()  # type: ignore[arg-type]
     if record:
         if study is None or law is not None:
             arguments.wrong.append(complaint("study", None, "given with record, and law left out", "conflict"))
         arguments.done()
         read = study if isinstance(study, Study) else Study.from_toml(study)  # type: ignore[arg-type]
-        return read.fit_record(data, free=free or [], fix=fix, settle=settle, **given).to_dict()  # type: ignore[arg-type]
+        return read.fit_record(data, free=free or [], fix=fix, settle=settle, columns=columns, **given).to_dict()  # type: ignore[arg-type]
     alone: dict[str, object] = {"study": study, "settle": settle, **given}
     for name, value in alone.items():
         if value is not None:
             arguments.wrong.append(complaint(name, str(value), "given with decay or record", "conflict"))
     arguments.done()
-    return fit_laws(data, law=law, free=free, fix=fix).to_dict()
+    return fit_laws(data, law=law, free=free, fix=fix, columns=columns).to_dict()
 
 
 @keywords
@@ -232,19 +233,23 @@ def fit_laws(
     law: str | list[str] | None = None,
     free: str | list[str] | None = None,
     fix: str | list[str] | None = None,
+    columns: Mapping[str, str] | None = None,
 ) -> results.LawFit:
     """Fits friction laws to measured coefficients, with standard errors, and compares them.
 
     Parameters
     ----------
     data :
-        CSV file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``.
+        CSV, LabVIEW or MATLAB file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``.
     law :
         Names of laws, or "all" [default: "all"].
     free :
         Parameters to estimate that are otherwise fixed, such as "exponent".
     fix :
         Parameters to fix, such as "static_coefficient=0.4".
+    columns :
+        Columns by other names, such as ``{"slip_velocity": "V[mm/s]", "friction_force": "%*9.84mNm"}``: quantities with the name of their column,
+        or its unit where that is unique, with a unit that the file does not give in brackets, and a factor after ``*``.
 
     Returns
     -------
@@ -260,8 +265,9 @@ def fit_laws(
     arguments = Arguments()
     place = arguments.path("data", data)
     laws, freed, fixed = (names_of(arguments, name, it) for name, it in (("law", law), ("free", free), ("fix", fix)))
+    named = columns_of(arguments, columns)
     arguments.done()
-    return results.LawFit._of(None, _quell.fit_laws(str(place), laws, freed, fixed))
+    return results.LawFit._of(None, _quell.fit_laws(str(place), laws, freed, fixed, named))
 
 
 @keywords
@@ -274,13 +280,14 @@ def fit_decay(
     quantity: str | None = None,
     gain: float | None = None,
     window: tuple[float, float] | None = None,
+    columns: Mapping[str, str] | None = None,
 ) -> results.Decay:
     """Fits natural frequency, damping ratio and friction to a record of a free decay.
 
     Parameters
     ----------
     data :
-        CSV file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``, with their units in the names.
+        CSV, LabVIEW or MATLAB file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``, with their units in the names.
     law :
         "viscous", "coulomb", "viscous-coulomb", or "all" [default: "all"].
     fix :
@@ -293,6 +300,8 @@ def fit_decay(
         Factor of the readings [default: 1].
     window :
         Two times of the record between which it is read.
+    columns :
+        Columns by other names, such as ``{"time": "t[ms]", "velocity": "ch1[mm/s]"}``, as in :func:`fit_laws`.
 
     Returns
     -------
@@ -302,7 +311,7 @@ def fit_decay(
     arguments = Arguments()
     place = arguments.path("data", data)
     laws, fixed = names_of(arguments, "law", law), names_of(arguments, "fix", fix)
-    texts = record_of(arguments, column, quantity, gain, window)
+    texts = record_of(arguments, column, quantity, gain, window, columns)
     arguments.done()
     return results.Decay._of(None, _quell.fit_decay(str(place), laws, fixed, texts))
 

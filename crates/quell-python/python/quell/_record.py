@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ._arguments import Arguments
+from ._errors import complaint
 from ._values import plain
 
-__all__ = ["Record", "names_of", "record_of"]
+__all__ = ["Record", "columns_of", "names_of", "record_of"]
 
-Record = tuple[str | None, str | None, str | None, str | None]
-"""Column, quantity, gain and window of a record, as texts."""
+Record = tuple[str | None, str | None, str | None, str | None, list[str]]
+"""Column, quantity, gain and window of a record, as texts, and its columns by other names."""
 
 
 def record_of(
-    arguments: Arguments, column: str | None, quantity: str | None, gain: float | None, window: tuple[float, float] | None
+    arguments: Arguments,
+    column: str | None,
+    quantity: str | None,
+    gain: float | None,
+    window: tuple[float, float] | None,
+    columns: Mapping[str, str] | None,
 ) -> Record:
     """How a record is read."""
     name = None if column is None else arguments.text("column", column, "the name of a column")
@@ -25,7 +31,18 @@ def record_of(
     if window is not None:
         first, last = arguments.pair("window", window, "two times of the record")
         part = f"{first!r}:{last!r}"
-    return (name, shown, factor, part)
+    return (name, shown, factor, part, columns_of(arguments, columns))
+
+
+def columns_of(arguments: Arguments, columns: Mapping[str, str] | None) -> list[str]:
+    """Columns by other names, as texts ``QUANTITY=COLUMN``."""
+    if columns is None:
+        return []
+    if not isinstance(columns, Mapping):
+        allowed = 'a dictionary of quantities and columns, such as {"slip_velocity": "V"}'
+        arguments.wrong.append(complaint("columns", str(columns), allowed, "value"))
+        return []
+    return [f"{name}={arguments.text('columns', column, 'the name of a column')}" for name, column in columns.items()]
 
 
 def names_of(arguments: Arguments, name: str, given: str | Iterable[str] | None) -> list[str]:

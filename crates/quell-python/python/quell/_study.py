@@ -786,6 +786,7 @@ class Study(CheckedStudy):
         quantity: str | None = None,
         gain: float | None = None,
         window: tuple[float, float] | None = None,
+        columns: Mapping[str, str] | None = None,
         settle: float | str | None = None,
     ) -> results.Comparison:
         """Compares a measured record or spectrum with the response of the study, before and after its dither.
@@ -793,11 +794,11 @@ class Study(CheckedStudy):
         Parameters
         ----------
         measured :
-            CSV file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``, or with ``frequency_hz`` and
+            CSV, LabVIEW or MATLAB file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``, or with ``frequency_hz`` and
             ``level``; with ``after`` it is without dither.
         after :
             File measured under dither.
-        column, quantity, gain, window :
+        column, quantity, gain, window, columns :
             How the files are read, as in :func:`quell.fit_decay`.
         settle :
             Time before the computed record, in the units of the study or with a unit [default: 200 periods].
@@ -811,7 +812,7 @@ class Study(CheckedStudy):
         first = arguments.path("measured", measured)
         second = arguments.optional(arguments.path, "after", after)
         time = arguments.optional(arguments.quantity, "settle", settle)
-        texts = record_of(arguments, column, quantity, gain, window)
+        texts = record_of(arguments, column, quantity, gain, window, columns)
         arguments.done()
         return results.Comparison._of(self, self._native.compare((first, second), time, texts))
 
@@ -827,13 +828,14 @@ class Study(CheckedStudy):
         quantity: str | None = None,
         gain: float | None = None,
         window: tuple[float, float] | None = None,
+        columns: Mapping[str, str] | None = None,
     ) -> results.RecordFit:
         """Fits numbers of the study to a measured record, by its exact motion.
 
         Parameters
         ----------
         data :
-            CSV file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``.
+            CSV, LabVIEW or MATLAB file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``.
         free :
             Paths of the numbers to estimate, such as "belt.damping_ratio", or with a start "belt.damping_ratio=0.01"; also
             "record.shift", "record.offset" and "record.gain".
@@ -841,7 +843,7 @@ class Study(CheckedStudy):
             Other numbers of the study, such as "belt.belt_velocity=0.1".
         settle :
             Time from the start of the run to the record [default: 0, with a free "record.shift" 30 periods].
-        column, quantity, gain, window :
+        column, quantity, gain, window, columns :
             How the file is read, as in :func:`quell.fit_decay`.
 
         Returns
@@ -853,7 +855,7 @@ class Study(CheckedStudy):
         place = arguments.path("data", data)
         freed, fixed = names_of(arguments, "free", free), names_of(arguments, "fix", fix)
         time = arguments.optional(arguments.quantity, "settle", settle)
-        texts = record_of(arguments, column, quantity, gain, window)
+        texts = record_of(arguments, column, quantity, gain, window, columns)
         arguments.done()
         return results.RecordFit._of(self, self._native.fit_record((place, freed, fixed), time, texts))
 

@@ -11,19 +11,26 @@ use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
 
-/// How a measured file is read: column, quantity, gain and window.
+/// How a measured file is read: column, quantity, gain and window, and columns by other names.
 #[derive(Debug, FromPyObject)]
-pub(crate) struct RecordTexts(Option<String>, Option<String>, Option<String>, Option<String>);
+pub(crate) struct RecordTexts(
+    Option<String>,
+    Option<String>,
+    Option<String>,
+    Option<String>,
+    Vec<String>,
+);
 
 impl RecordTexts {
     /// The checked request.
     pub(crate) fn request(&self) -> Result<RecordRequest, Failure> {
-        let Self(column, quantity, gain, window) = self;
+        let Self(column, quantity, gain, window, columns) = self;
         RecordRequest::new(
             column.as_deref(),
             quantity.as_deref(),
             gain.as_deref(),
             window.as_deref(),
+            columns,
         )
     }
 }

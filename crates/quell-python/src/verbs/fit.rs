@@ -24,9 +24,10 @@ pub(crate) fn fit_laws(
     law: Vec<String>,
     free: Vec<String>,
     fix: Vec<String>,
+    columns: Vec<String>,
 ) -> PyResult<NativeAnswer> {
     call::run(py, move || {
-        let request = FitRequest::new(&law, &free, &fix)?;
+        let request = FitRequest::new(&law, &free, &fix, &columns)?;
         Ok(NativeAnswer::new(Box::new(quell::run::fit::run(&data, &request)?)))
     })
 }

@@ -9,10 +9,12 @@ use std::path::Path;
 use quell_design::fit::{
     Estimate, FitModel, FitPoint, LawFit, akaike_weights, fit, student_quantile,
 };
-use quell_input::measurement::FrictionData;
+use quell_input::columns::ColumnChoice;
+use quell_input::measurement::{COLUMNS, FrictionData, FrictionScale};
 use quell_model::InvalidValues;
 use quell_model::friction::LawKind;
 use quell_model::parameter::Parameter;
+use quell_model::units::Quantity;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 
@@ -30,14 +32,20 @@ pub struct FitRequest {
     lenient: bool,
     free: Vec<String>,
     fixed: Vec<(String, f64)>,
+    columns: ColumnChoice,
 }
 
 impl FitRequest {
-    /// From names of laws (none or `all`: every law), keys to estimate, and `KEY=VALUE` to fix.
+    /// From names of laws (none or `all`: every law), keys to estimate, `KEY=VALUE` to fix, and `QUANTITY=COLUMN` of the file.
     ///
     /// # Errors
-    /// Every unknown law, key and value.
-    pub fn new(laws: &[String], free: &[String], fixed: &[String]) -> Result<Self, Failure> {
+    /// Every unknown law, key, value and column.
+    pub fn new(
+        laws: &[String],
+        free: &[String],
+        fixed: &[String],
+        columns: &[String],
+    ) -> Result<Self, Failure> {
         let mut wrong = Vec::new();
         let mut request = Self { lenient: laws.is_empty(), ..Self::default() };
         for name in laws {
@@ -75,6 +83,11 @@ impl FitRequest {
             }
         }
         request.free = free.to_vec();
+        match ColumnChoice::new(columns, &COLUMNS) {
+            Ok(columns) => request.columns = columns,
+            Err(Failure::Wrong(complaints)) => wrong.extend(complaints),
+            Err(why) => return Err(why),
+        }
         wrong.extend(request.keys_are_known());
         if wrong.is_empty() { Ok(request) } else { Err(wrong.into()) }
     }
@@ -203,7 +216,7 @@ pub struct FrictionFit {
 /// # Errors
 /// Complaints about the file and the options; a law that cannot be fitted, unless it is one of all laws.
 pub fn run(path: &Path, request: &FitRequest) -> Result<FrictionFit, Failure> {
-    let data = FrictionData::read(path)?;
+    let data = FrictionData::read(path, &request.columns)?;
     let (points, lines, at_rest, sign) = oriented(&data);
     let (mut fits, mut left_out) = (Vec::new(), Vec::new());
     for kind in &request.laws {
@@ -306,6 +319,23 @@ impl FrictionFit {
         student_quantile(CONFIDENCE, fit.points - fit.free)
     }
 
+    /// The unit of friction that is a force or a torque, if the file gives one.
+    pub fn force_unit(&self) -> Option<&'static str> {
+        match self.data.scale() {
+            FrictionScale::Force(unit) => unit,
+            FrictionScale::Coefficient => None,
+        }
+    }
+
+    /// What friction is: `coefficient`, `force` or `torque`.
+    pub fn friction_is(&self) -> &'static str {
+        match self.data.scale() {
+            FrictionScale::Coefficient => "coefficient",
+            FrictionScale::Force(Some("Nm")) => "torque",
+            FrictionScale::Force(_) => "force",
+        }
+    }
+
     /// The curve of a fit at these many speeds from the slowest to the fastest point.
     pub fn curve(&self, fit: &LawFit, count: usize) -> FittedCurve {
         let speeds = || self.points.iter().map(FitPoint::speed);
@@ -323,11 +353,24 @@ impl FrictionFit {
 
     /// The table `[friction]` of a study with the fitted law, and `[uncertainty]` with its covariance.
     pub fn fragments(&self, fit: &LawFit) -> (String, String) {
+        let is_si = self.data.velocity_unit() == Some("m/s");
+        let is_force = self.data.scale() != FrictionScale::Coefficient;
+        // Levels that are forces have bare keys.
         let key = |parameter: &Parameter| match parameter.si.first() {
-            Some(twin) if self.data.is_si() => twin.key,
+            Some(twin) if is_si && (!is_force || parameter.quantity == Quantity::Velocity) => {
+                twin.key
+            }
             _ => parameter.key(),
         };
         let mut friction = format!("[friction]\nlaw = \"{}\"\n", fit.name());
+        if is_force {
+            friction += "friction_force = true\n";
+        }
+        if let (Some(unit), true) = (self.data.velocity_unit(), !is_si || is_force) {
+            let force =
+                self.force_unit().map_or(String::new(), |unit| format!(", levels in {unit}"));
+            let _ = writeln!(friction, "# slip velocities in {unit}{force}");
+        }
         for fitted in &fit.parameters {
             let _ = writeln!(friction, "{} = {:?}", key(&fitted.parameter), fitted.value);
         }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use super::Outcome;
+use super::read_file::{read, read_in_words};
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -204,6 +205,7 @@ fn record(record: &ComparedRecord) -> Fields {
     fields
         .plain("file", record.file.display().to_string())
         .plain("columns", record.columns.to_vec())
+        .plain("read", read(&record.read))
         .plain("recorded_quantity", record.quantity.name())
         .plain("dithered", record.dithered)
         .plain("window", "hann")
@@ -278,6 +280,9 @@ fn table(record: &ComparedRecord) -> String {
         figure(record.highest),
         record.hertz()
     );
+    if let Some(said) = read_in_words(&record.read) {
+        let _ = writeln!(text, "  {said}");
+    }
     let _ = writeln!(
         text,
         "  {:>14}{:>14}{:>14}{:>14}",

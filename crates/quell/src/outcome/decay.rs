@@ -9,6 +9,7 @@ use super::Outcome;
 use super::estimates::{
     criteria, explained_in_words, in_words, numbers, parameters, rows, weight_in_words,
 };
+use super::read_file::{read, read_in_words};
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -114,6 +115,7 @@ fn json(done: &FreeDecay) -> Json {
     fields.plain("converged", best.converged);
     fields.plain("file", done.record.path().display().to_string());
     fields.plain("columns", done.record.columns.to_vec());
+    fields.plain("read", read(&done.record.read));
     fields.plain("recorded_quantity", done.record.quantity.name());
     let compared = done.fits.iter().enumerate().map(|(place, fit)| {
         let named = done.named(fit);
@@ -146,6 +148,9 @@ fn table(done: &FreeDecay) -> String {
     let mut text = rows(&named, |place| FreeDecay::has(best, place));
     for what in done.not_determinable() {
         let _ = writeln!(text, "  not determinable: {what}");
+    }
+    if let Some(said) = read_in_words(&done.record.read) {
+        let _ = writeln!(text, "  {said}");
     }
     if done.fits.len() > 1 {
         let _ = writeln!(

@@ -3,12 +3,14 @@
 use std::fmt::Write as _;
 
 use quell_design::fit::{FitFinding, LawFit, diagnose};
+use quell_input::measurement::{FrictionScale, SteadyFiles};
 use quell_model::parameter::Parameter;
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
 use super::Outcome;
 use super::estimates::weight_in_words;
+use super::read_file::{read, read_in_words};
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -55,24 +57,77 @@ impl Outcome for FrictionFit {
     }
 }
 
-/// Unit of a quantity of the file.
-fn unit(fit: &FrictionFit, quantity: Quantity) -> &'static str {
-    match quantity {
-        quantity if fit.data.is_si() => quantity.si_unit().map_or("1", |(unit, _)| unit),
-        quantity => quantity.scaled_unit(),
+/// Unit of slip velocities.
+fn velocity_unit(fit: &FrictionFit) -> &'static str {
+    fit.data.velocity_unit().unwrap_or_else(|| Quantity::Velocity.scaled_unit())
+}
+
+/// Unit of friction.
+fn friction_unit(fit: &FrictionFit) -> &'static str {
+    match fit.data.scale() {
+        FrictionScale::Coefficient => "1",
+        FrictionScale::Force(unit) => unit.unwrap_or_else(|| Quantity::Force.scaled_unit()),
     }
 }
 
-/// A number with the unit of the file.
-fn in_unit(fit: &FrictionFit, quantity: Quantity, value: f64) -> String {
-    match unit(fit, quantity) {
-        unit if fit.data.is_si() && unit != "1" => format!("{} {unit}", more_digits(value)),
-        _ => more_digits(value),
+/// Unit of a parameter of a law.
+fn unit(fit: &FrictionFit, parameter: &Parameter) -> String {
+    match parameter.quantity {
+        Quantity::Velocity => velocity_unit(fit).to_owned(),
+        Quantity::PerVelocity => match (fit.data.velocity_unit(), fit.force_unit()) {
+            (Some("m/s"), None) => "s/m".to_owned(),
+            (Some("rad/s"), None) => "s/rad".to_owned(),
+            (Some("m/s"), Some(force)) => format!("{force}·s/m"),
+            (Some(_), Some(force)) => format!("{force}·s/rad"),
+            _ => Quantity::PerVelocity.scaled_unit().to_owned(),
+        },
+        Quantity::Ratio if parameter.key().ends_with("coefficient") => {
+            friction_unit(fit).to_owned()
+        }
+        quantity => quantity.scaled_unit().to_owned(),
     }
+}
+
+/// The square of a unit.
+fn squared(unit: &str) -> String {
+    match unit {
+        "1" => "1".to_owned(),
+        "Nm" => "N²m²".to_owned(),
+        unit => format!("{unit}²"),
+    }
+}
+
+/// A unit after a number; nothing for pure numbers and for numbers in the unit of a file that does not give it.
+fn after_number(unit: &str) -> String {
+    let known = quell_model::units::measure::is_unit(unit);
+    if known && unit != "1" { format!(" {unit}") } else { String::new() }
 }
 
 fn speed(fit: &FrictionFit, value: f64) -> String {
-    in_unit(fit, Quantity::Velocity, value)
+    more_digits(value) + &after_number(velocity_unit(fit))
+}
+
+/// A parameter in words: without a normal load levels are forces or torques.
+fn parameter_in_words(done: &FrictionFit, key: &str) -> String {
+    let words = quantity_at(key);
+    match done.friction_is() {
+        "coefficient" => words,
+        force => words.replace("coefficient", &format!("friction {force}")),
+    }
+}
+
+/// What a friction that is no coefficient is.
+fn without_load(done: &FrictionFit) -> Option<String> {
+    let force = done.friction_is();
+    (force != "coefficient").then(|| {
+        format!(
+            "No normal load was measured: friction is a {force}{}.",
+            match done.force_unit() {
+                Some(unit) => format!(" in {unit}"),
+                None => " in the unit of the file".to_owned(),
+            }
+        )
+    })
 }
 
 fn sentence(done: &FrictionFit) -> String {
@@ -82,12 +137,9 @@ fn sentence(done: &FrictionFit) -> String {
         .iter()
         .filter(|fitted| fitted.is_free())
         .map(|fitted| {
-            let quantity = fitted.parameter.quantity;
             let value = estimated(fitted.value, fitted.standard_error.ok());
-            let unit = unit(done, quantity);
-            let unit =
-                if done.data.is_si() && unit != "1" { format!(" {unit}") } else { String::new() };
-            format!("{} {value}{unit}", quantity_at(fitted.parameter.key()))
+            let unit = after_number(&unit(done, &fitted.parameter));
+            format!("{} {value}{unit}", parameter_in_words(done, fitted.parameter.key()))
         })
         .collect();
     let mut text = format!(
@@ -95,7 +147,7 @@ fn sentence(done: &FrictionFit) -> String {
         best.name(),
         done.points.len(),
         plural(done.points.len()),
-        quell_model::digits::digits(best.residual(), 3),
+        quell_model::digits::digits(best.residual(), 3) + &after_number(friction_unit(done)),
         listed(&values)
     );
     if let (Some(weights), true) = (&done.weights, done.fits.len() > 1) {
@@ -119,7 +171,7 @@ fn parameters(done: &FrictionFit, fit: &LawFit) -> Fields {
         object.insert("value".to_owned(), fitted.value.into());
         object.insert("standard_error".to_owned(), error.ok().into());
         object.insert("fixed".to_owned(), (!fitted.is_free()).into());
-        inner.measured(key, unit(done, fitted.parameter.quantity), object);
+        inner.measured(key, &unit(done, &fitted.parameter), object);
         if let Err(why) = error {
             inner.why(&format!("{key}.standard_error"), why);
         }
@@ -132,8 +184,8 @@ fn numbers(fields: &mut Fields, done: &FrictionFit, fit: &LawFit) {
     fields
         .plain("law", fit.name())
         .nested("parameters", parameters(done, fit))
-        .measured("residual", "1", fit.residual())
-        .measured("rss", "1", fit.rss)
+        .measured("residual", friction_unit(done), fit.residual())
+        .measured("rss", &squared(friction_unit(done)), fit.rss)
         .plain("p", fit.free);
     match fit.aic() {
         Ok(aic) => fields.measured("aic", "1", aic),
@@ -159,6 +211,11 @@ fn json(done: &FrictionFit) -> Json {
     fields.measured("quantile", "1", done.quantile(best));
     fields.plain("file", done.data.path().display().to_string());
     fields.plain("columns", done.data.columns().to_vec());
+    fields.plain("read", read(done.data.dialect()));
+    fields.plain("friction_is", done.friction_is());
+    if let Some(folder) = done.data.folder() {
+        fields.plain("files", files(folder));
+    }
     fields.plain("weighted", done.data.is_weighted());
     fields.plain("sign", done.sign.name());
     fields.plain("at_rest", done.at_rest.clone());
@@ -190,16 +247,37 @@ fn json(done: &FrictionFit) -> Json {
     fields.finish()
 }
 
+/// The files of a folder: those that are points, and those that are not.
+fn files(folder: &SteadyFiles) -> Json {
+    let taken = folder.taken.iter().map(|file| {
+        json!({
+            "file": file.path.display().to_string(),
+            "readings": file.readings,
+            "slip_velocity": file.slip_velocity,
+            "friction": file.friction,
+            "steady": file.is_steady,
+        })
+    });
+    let left_out = folder
+        .left_out
+        .iter()
+        .map(|file| json!({ "file": file.path.display().to_string(), "left_out": file.why }));
+    taken.chain(left_out).collect()
+}
+
 /// What the measurements cannot determine, with what to do.
 fn warnings(done: &FrictionFit) -> Vec<String> {
     let best = done.best();
     let mut warnings: Vec<String> =
         diagnose(best, &done.points).iter().map(|finding| in_words(done, finding)).collect();
+    if let Some(folder) = done.data.folder() {
+        warnings.extend(of_folder(folder));
+    }
     if !done.at_rest.is_empty() {
         warnings.push(format!(
             "{} at slip velocity 0 left out: friction at rest takes any value up to the static level. A measured static \
              coefficient is given by --fix static_coefficient=VALUE",
-            lines_of(&done.at_rest)
+            lines_of(done, &done.at_rest)
         ));
     }
     warnings
@@ -254,7 +332,7 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
             format!(
                 "{} deviate{} by more than four robust standard deviations of {}{unit}: check {}, for a least-squares fit is drawn \
                  towards such points",
-                lines_of(&lines),
+                lines_of(done, &lines),
                 if lines.len() == 1 { "s" } else { "" },
                 quell_model::digits::digits(*deviation, 2),
                 if lines.len() == 1 { "it" } else { "them" }
@@ -264,7 +342,10 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
             "the residuals have {runs} run{} of equal sign over the slip speed where {expected:.1} are expected: the law does \
              not have the shape of the data, and standard errors, where they are given, are too small. {}",
             if *runs == 1 { "" } else { "s" },
-            if done.compares_all() {
+            if done.compares_all() && done.data.has_times() {
+                "Every law has been compared. The file is a record over time: friction may depend on its past, and laws with a state, such as \
+                 LuGre friction, are not fitted to a record"
+            } else if done.compares_all() {
                 "Every law has been compared: check whether friction in the data depends on more than the slip velocity"
             } else {
                 "Compare laws with --law all"
@@ -278,13 +359,34 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
     }
 }
 
-/// "line 3", "lines 3, 5 and 8".
-fn lines_of(lines: &[usize]) -> String {
+/// Files of a folder that are left out, or whose speed is not steady.
+fn of_folder(folder: &SteadyFiles) -> Vec<String> {
+    let left_out = folder.left_out.iter();
+    let mut warnings: Vec<String> =
+        left_out.map(|file| format!("{} is left out: {}", file.path.display(), file.why)).collect();
+    let unsteady: Vec<String> = folder
+        .taken
+        .iter()
+        .filter(|file| !file.is_steady)
+        .map(|file| file.path.display().to_string())
+        .collect();
+    if !unsteady.is_empty() {
+        warnings.push(format!(
+            "the slip velocity is not steady in {}: its contact may stick and slip, so that the mean friction is not that at the mean speed",
+            listed(&unsteady)
+        ));
+    }
+    warnings
+}
+
+/// "line 3", "lines 3, 5 and 8"; of a folder the names of files.
+fn lines_of(done: &FrictionFit, lines: &[usize]) -> String {
+    let word = if done.data.folder().is_some() { "file" } else { "line" };
     let mut names: Vec<String> = lines.iter().take(LISTED).map(ToString::to_string).collect();
     if lines.len() > LISTED {
         names.push(format!("{} more", lines.len() - LISTED));
     }
-    format!("line{} {}", if lines.len() == 1 { "" } else { "s" }, listed(&names))
+    format!("{word}{} {}", if lines.len() == 1 { "" } else { "s" }, listed(&names))
 }
 
 fn table(done: &FrictionFit) -> String {
@@ -296,7 +398,7 @@ fn table(done: &FrictionFit) -> String {
             Ok(error) => format!("± {}", figure(error)),
             Err(why) => format!("({why})"),
         };
-        let unit = unit(done, fitted.parameter.quantity);
+        let unit = unit(done, &fitted.parameter);
         let unit = if unit == "1" { String::new() } else { format!("  {unit}") };
         let key = fitted.parameter.key();
         let _ = writeln!(text, "  {key:<width$}  {:>12} {known}{unit}", figure(fitted.value));
@@ -308,6 +410,9 @@ fn table(done: &FrictionFit) -> String {
         );
     }
     let _ = writeln!(text, "  {}", done.sign.in_words());
+    for said in without_load(done).into_iter().chain(read_in_words(done.data.dialect())) {
+        let _ = writeln!(text, "  {said}");
+    }
     if done.fits.len() > 1 {
         let _ = writeln!(
             text,
@@ -343,26 +448,26 @@ fn table(done: &FrictionFit) -> String {
 fn curve(done: &FrictionFit) -> Dataset {
     let best = done.best();
     let curve = done.curve(best, CURVE);
-    let velocity = unit(done, Quantity::Velocity);
+    let (velocity, friction) = (velocity_unit(done), friction_unit(done));
     Dataset::of_file(done.data.path(), "fit")
         .fact(format!("law: {}", best.name()))
         .with_axis(Array::new("slip_velocity", velocity, curve.speeds))
-        .with(Array::new("coefficient", "1", curve.coefficients))
-        .with(Array::new("coefficient_low", "1", curve.low))
-        .with(Array::new("coefficient_high", "1", curve.high))
+        .with(Array::new("coefficient", friction, curve.coefficients))
+        .with(Array::new("coefficient_low", friction, curve.low))
+        .with(Array::new("coefficient_high", friction, curve.high))
 }
 
 /// The points with their residuals.
 fn points(done: &FrictionFit) -> Dataset {
     let best = done.best();
-    let velocity = unit(done, Quantity::Velocity);
+    let (velocity, friction) = (velocity_unit(done), friction_unit(done));
     let of =
         |value: fn(&quell_design::fit::FitPoint) -> f64| done.points.iter().map(value).collect();
     Dataset::of_file(done.data.path(), "fit")
         .fact(format!("law: {}", best.name()))
         .with_axis(Array::new("line", "1", done.lines.iter().map(|line| *line as f64).collect()))
         .with(Array::new("point_velocity", velocity, of(|point| point.slip_velocity)))
-        .with(Array::new("point_coefficient", "1", of(|point| point.coefficient)))
-        .with(Array::new("point_deviation", "1", of(|point| point.standard_deviation)))
-        .with(Array::new("point_residual", "1", best.residuals.clone()))
+        .with(Array::new("point_coefficient", friction, of(|point| point.coefficient)))
+        .with(Array::new("point_deviation", friction, of(|point| point.standard_deviation)))
+        .with(Array::new("point_residual", friction, best.residuals.clone()))
 }

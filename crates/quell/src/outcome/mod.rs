@@ -32,6 +32,7 @@ mod noise_response;
 mod orbit;
 mod probability;
 mod ramp;
+mod read_file;
 mod record_fit;
 mod resonances;
 mod response;

@@ -6,6 +6,7 @@ use serde_json::{Value as Json, json};
 
 use super::Outcome;
 use super::estimates::{explained_in_words, in_words, numbers, parameters, rows};
+use super::read_file::{read, read_in_words};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -40,6 +41,7 @@ impl Outcome for RecordFit {
             .plain("starts", self.tried)
             .plain("file", self.record.path().display().to_string())
             .plain("columns", self.record.columns.to_vec())
+            .plain("read", read(&self.record.read))
             .plain("recorded_quantity", self.record.quantity.name());
         match shift_counts_from(self) {
             Some(words) => fields.plain("shift_from", words),
@@ -89,6 +91,9 @@ impl Outcome for RecordFit {
         let mut text = rows(&self.named, |_| true);
         if let Some(words) = shift_counts_from(self) {
             let _ = writeln!(text, "  record.shift counts from {words}");
+        }
+        if let Some(said) = read_in_words(&self.record.read) {
+            let _ = writeln!(text, "  {said}");
         }
         let (numbers, uncertainty) = self.fragments();
         for part in [numbers, uncertainty] {

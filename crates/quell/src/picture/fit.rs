@@ -15,13 +15,20 @@ const CURVE: usize = 201;
 pub fn fit(done: &FrictionFit) -> Figure {
     let best = done.best();
     let largest = done.points.iter().map(FitPoint::speed).fold(0.0, f64::max);
-    let ruler = Ruler::of_unit(if done.data.is_si() { "m/s" } else { "" }, largest);
+    let ruler = Ruler::of_unit(done.data.velocity_unit().unwrap_or_default(), largest);
     let axis = || ruler.axis("slip speed", "|v_r|");
     let curve = done.curve(best, CURVE);
     let line = |values: &[f64]| -> Vec<(f64, f64)> {
         curve.speeds.iter().zip(values).map(|(v, value)| (ruler.place(*v), *value)).collect()
     };
-    let mut upper = Panel::new(axis(), PlotAxis::new("friction coefficient").symbol("μ")).with(
+    let friction = match done.force_unit() {
+        _ if done.friction_is() == "coefficient" => {
+            PlotAxis::new("friction coefficient").symbol("μ")
+        }
+        None => PlotAxis::new(format!("friction {}", done.friction_is())),
+        Some(unit) => PlotAxis::new(format!("friction {}", done.friction_is())).unit(unit),
+    };
+    let mut upper = Panel::new(axis(), friction).with(
         Region::between(PlotRole::Stable, line(&curve.low), line(&curve.high))
             .label("95 % confidence"),
     );
@@ -38,7 +45,12 @@ pub fn fit(done: &FrictionFit) -> Figure {
         .iter()
         .zip(&best.residuals)
         .map(|(point, residual)| (ruler.place(point.speed()), *residual));
-    let lower = Panel::new(axis(), PlotAxis::new("residual").symbol("μ − μ_{fit}"))
+    let residual = match done.force_unit() {
+        _ if done.friction_is() == "coefficient" => PlotAxis::new("residual").symbol("μ − μ_{fit}"),
+        None => PlotAxis::new("residual"),
+        Some(unit) => PlotAxis::new("residual").unit(unit),
+    };
+    let lower = Panel::new(axis(), residual)
         .with(ReferenceLine::horizontal(0.0))
         .with(Points::new(PlotRole::Printed, residuals).marker(Marker::Circle).size(5.0));
     Figure::grid(1, [upper, lower]).sharing_x(Sharing::All).legend(SharedLegend::Below).caption(

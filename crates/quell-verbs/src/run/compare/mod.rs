@@ -9,6 +9,7 @@ mod spectra;
 
 use std::path::{Path, PathBuf};
 
+use quell_input::dialect::FileDialect;
 use quell_input::record::{MeasuredFile, MeasuredSpectrum, RecordRequest, TimeSeries};
 use quell_model::RecordedQuantity;
 use quell_numerics::spectrum::Spectrum;
@@ -68,6 +69,8 @@ pub struct ComparedRecord {
     pub frequency_unit: Option<&'static str>,
     /// Columns of the file.
     pub columns: [String; 2],
+    /// How the file was read.
+    pub read: FileDialect,
     /// The measured spectrum.
     pub measured: ComparedSpectrum,
     /// The computed spectrum.
@@ -170,6 +173,7 @@ fn of_record(
         unit: record.unit,
         frequency_unit: record.time_unit.map(|_| "Hz"),
         columns: record.columns.clone(),
+        read: record.read.clone(),
         measured: of(&record.values, step)?,
         computed: of(&computed.values, computed.step)?,
         lines: Vec::new(),
@@ -220,6 +224,7 @@ fn of_spectrum(
         unit: spectrum.unit,
         frequency_unit: spectrum.frequency_unit,
         columns: spectrum.columns.clone(),
+        read: spectrum.read.clone(),
         lines: lines::compared(&measured, &own, LOBE * spacing),
         measured,
         computed: own,
