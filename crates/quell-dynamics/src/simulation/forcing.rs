@@ -484,8 +484,12 @@ pub(crate) fn harmonic_series<V: Lane>(
     let (sine, cosine) = sin_cos_of_phase(rate, time, low, phase);
     let phasor = [sine, cosine, -sine, -cosine];
     let mut out = [V::splat(0.0); ORDER + 1];
-    for k in 0..=ORDER {
-        out[k] = table[k] * phasor[k % 4];
+    // Four by four, which the compiler makes one vector of.
+    let orders = out.chunks_mut(4).zip(table.chunks(4));
+    for (out, table) in orders {
+        for ((out, entry), part) in out.iter_mut().zip(table).zip(&phasor) {
+            *out = *entry * *part;
+        }
     }
     out
 }
