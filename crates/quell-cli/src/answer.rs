@@ -34,11 +34,16 @@ impl Answer {
     }
 }
 
-/// Prints a failure: with `json` as an object to standard output, else as text to standard error.
-pub(crate) fn refuse(failure: &Failure, json: bool) -> ExitCode {
+/// Prints a failure of the verb `asked`, if one was: with `json` as an object to standard output, else as text to standard error.
+pub(crate) fn refuse(failure: &Failure, asked: Option<&str>, json: bool) -> ExitCode {
     if json {
+        let mut object = failure.json();
+        if let (Some(fields), Some(asked)) = (object.as_object_mut(), asked) {
+            // The place that it has in an answer.
+            fields.shift_insert(1.min(fields.len()), "answer".to_owned(), asked.into());
+        }
         // If standard output fails too, the exit status still reports the failure.
-        print(&format!("{}\n", failure.json()));
+        print(&format!("{object}\n"));
     } else {
         print_error(&lines(failure));
     }

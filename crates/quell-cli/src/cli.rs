@@ -52,7 +52,11 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let (name, cli) = match parsed.and_then(named) {
         Ok(named) => named,
-        Err(error) => return usage_error(&hint::explained(error, &arguments, &command), json),
+        Err(error) => {
+            let asked = arguments.get(1).and_then(|word| command.find_subcommand(word));
+            let asked = asked.map(Command::get_name);
+            return usage_error(&hint::explained(error, &arguments, &command), asked, json);
+        }
     };
     let answer = match &cli.verb {
         CliVerb::Answering(verb) => progress::during(&name, || verb.run()),
@@ -61,14 +65,14 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match answer {
         Ok(answer) => answer.show(),
         Err(failure) => {
-            let status = answer::refuse(&failure, json);
+            let status = answer::refuse(&failure, Some(&name), json);
             if interrupt::is_stopping() { ExitCode::from(interrupt::INTERRUPTED) } else { status }
         }
     }
 }
 
 /// Prints the requested help, or a usage error.
-fn usage_error(error: &clap::Error, json: bool) -> ExitCode {
+fn usage_error(error: &clap::Error, asked: Option<&str>, json: bool) -> ExitCode {
     let requested = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if requested {
         return answer::print(&error.render().to_string());
@@ -77,7 +81,7 @@ fn usage_error(error: &clap::Error, json: bool) -> ExitCode {
         answer::print_error(&error.render().to_string());
         return ExitCode::from(2);
     }
-    answer::refuse(&Failure::from(complaint(error)), json)
+    answer::refuse(&Failure::from(complaint(error)), asked, json)
 }
 
 /// A usage error as a complaint.

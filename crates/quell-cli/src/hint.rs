@@ -54,6 +54,14 @@ const OTHER_OPTIONS: &[(&[&str], &[OurOption])] = &[
         &["-t", "--time", "--duration", "--t-end"],
         &[("until", "`--until TIME` sets the end of the run")],
     ),
+    (
+        &["--from", "--to", "--range", "--between"],
+        &[
+            ("speeds", "`--speeds FROM:TO` sets the range of speeds"),
+            ("frequency", "`--frequency FROM:TO` that of dither frequencies"),
+            ("window", "`--window FROM:TO` sets the ends of the interval"),
+        ],
+    ),
 ];
 
 /// Most paths that a hint lists.
@@ -98,6 +106,7 @@ fn hint(error: &Error, arguments: &[OsString], command: &Command) -> Option<Stri
             for_value(argument, &words)
                 .or_else(|| for_option(argument, verb?))
                 .or_else(|| for_number(argument, &words, verb?))
+                .or_else(|| of_other_verbs(argument, verb?, command))
         }
         ErrorKind::MissingRequiredArgument if text(ContextKind::InvalidArg) == Some("<STUDY>") => {
             Some("`quell new` writes a study to begin with".to_owned())
@@ -134,6 +143,21 @@ fn for_option(option: &str, verb: &Command) -> Option<String> {
     let has = |id: &str| verb.get_arguments().any(|argument| argument.get_id() == id);
     let hints: Vec<&str> = ours.iter().filter(|(id, _)| has(id)).map(|(_, hint)| *hint).collect();
     (!hints.is_empty()).then(|| hints.join(", "))
+}
+
+/// An option that other verbs have.
+fn of_other_verbs(option: &str, verb: &Command, command: &Command) -> Option<String> {
+    let name = option.split('=').next()?.strip_prefix("--")?;
+    let has = |verb: &&Command| verb.get_arguments().any(|own| own.get_long() == Some(name));
+    let verbs = command.get_subcommands().filter(has).map(|verb| format!("`{}`", verb.get_name()));
+    let verbs: Vec<String> = verbs.collect();
+    let of = verb.get_name();
+    (!verbs.is_empty()).then(|| {
+        format!(
+            "--{name} is an option of {}; `quell {of} --help` shows those of `{of}`",
+            verbs.join(", ")
+        )
+    })
 }
 
 /// A number of the study as an option.

@@ -111,7 +111,7 @@ fn a_new_study_is_printed_or_saved_without_overwriting() {
     assert!(saved.contains("  quell check my-drive.toml\n"), "{saved}");
     let errors = place.refused(&["new", "quench", "--save", "my-drive.toml"]);
     assert!(errors[0]["allowed"].as_str().expect("text").contains("--overwrite"), "{errors:?}");
-    assert!(said(&place, "quell check my-drive.toml").contains("the study is valid"));
+    assert!(said(&place, "quell check my-drive.toml").contains("The study is valid"));
     said(&place, "quell new quench --save my-drive.toml --overwrite");
     let errors = place.refused(&["new", "qench"]);
     assert_eq!(errors[0]["suggestion"], "quench");

@@ -73,7 +73,6 @@ fn verbs_about_responses_that_repeat_are_refused() {
             with("bifurcation", study, &range),
             with("basins", study, &["--grid", "3x3"]),
             with("waveforms", study, &[]),
-            with("report", study, &["--out", "report.html"]),
         ] {
             let errors = place.refused(&arguments);
             let allowed = errors[0]["allowed"].as_str().expect("a text");
@@ -81,6 +80,10 @@ fn verbs_about_responses_that_repeat_are_refused() {
             assert!(allowed.contains(arguments[0]) && allowed.contains("simulate"), "{allowed}");
         }
     }
+    // A report says which of them it leaves out.
+    let report = place.good(&["report", "noise.toml", "--out", "report.html"]);
+    assert!(report["answers"].as_array().is_some_and(|answers| answers.len() > 2), "{report}");
+    assert!(report["not_examined"].to_string().contains("simulate"), "{report}");
     for arguments in [
         vec!["friction", "noise.toml", "--measured"],
         vec!["map", "noise.toml", "--quantity", "effect", "--save", "map.zarr"],

@@ -525,7 +525,7 @@ fn stability_reports_growth_and_forces() {
         "{sentence} {force}"
     );
     let people = String::from_utf8(place.quell(&["stability", "pad.toml"]).stdout).expect("UTF-8");
-    for word in ["rate/(1/s)", "criterion", " N, normal load", "m/s to "] {
+    for word in ["growth rate in 1/s", "criterion", " N, normal load", "m/s to "] {
         assert!(people.contains(word), "{word}: {people}");
     }
     // Where averaging does not apply the answer is warned of, and what needs a fast dither is null with its reason.

@@ -117,10 +117,11 @@ pub enum NoAnswer {
     },
 }
 
-/// Conversions of the reasons of engines.
-macro_rules! reasons {
-    ($($variant:ident($reason:ty)),* $(,)?) => {
-        $(impl From<$reason> for NoAnswer {
+/// Conversions of reasons into the variants of an enum that hold them.
+#[macro_export]
+macro_rules! passed_on {
+    ($name:ident: $($variant:ident($reason:ty)),* $(,)?) => {
+        $(impl From<$reason> for $name {
             fn from(why: $reason) -> Self {
                 Self::$variant(why)
             }
@@ -128,7 +129,8 @@ macro_rules! reasons {
     };
 }
 
-reasons! {
+passed_on! {
+    NoAnswer:
     Refused(RefusedNumbers),
     NoSliding(NoSteadySliding),
     NoDrivenPoint(NoDrivenPoint),

@@ -110,6 +110,13 @@ impl DiscUnits {
     }
 }
 
+/// A number of the name `name` in ω_ref in the units of a study, and that unit ([`DiscUnits::one`]).
+pub(crate) fn from_reference(study: &DiscStudy, name: &str, value: f64) -> (f64, &'static str) {
+    let own = (1.0, "ω_ref");
+    let (one, unit) = DiscUnits::of(study).and_then(|units| units.one(name, own.1)).unwrap_or(own);
+    (one * value, unit)
+}
+
 /// Whether a value is an object or has some.
 fn has_objects(value: &Json) -> bool {
     match value {

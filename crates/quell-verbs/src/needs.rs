@@ -110,7 +110,7 @@ const fn verb(name: &'static str, needs: Needs) -> StudyVerb {
 pub const VERBS: &[StudyVerb] = &[
     StudyVerb { draws: false, ..verb("check", Needs::RUN) },
     verb("sketch", Needs::RUN),
-    verb("report", Needs::STEADY),
+    verb("report", Needs::SLIDING),
     StudyVerb { draws: false, ..verb("cite", Needs::RUN) },
     verb("modes", Needs::SLIDING),
     verb("friction", Needs::CONTACTS),

@@ -18,11 +18,7 @@ macro_rules! reasons {
             $($(#[$what])* $said,)*
         }
 
-        $(impl From<$reason> for $name {
-            fn from(why: $reason) -> Self {
-                Self::$passed(why)
-            }
-        })*
+        quell_design::passed_on! { $name: $($passed($reason)),* }
 
         impl std::fmt::Display for $name {
             fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -47,9 +47,14 @@ pub fn more_digits(value: f64) -> String {
     quell_model::digits::digits(value, 6)
 }
 
-/// A unit after a number, with the space before it; nothing without a unit, or of a plain number.
+/// A unit after a number, with the space before it; nothing without a unit, or of a plain number or a ratio.
 pub fn unit_after(unit: Option<&str>) -> String {
-    unit.filter(|unit| *unit != "1").map_or_else(String::new, |unit| format!(" {unit}"))
+    named_unit(unit).map_or_else(String::new, |unit| format!(" {unit}"))
+}
+
+/// A unit that is not that of a plain number or of a ratio: "1", "1 (f*)".
+pub fn named_unit(unit: Option<&str>) -> Option<&str> {
+    unit.filter(|unit| *unit != "1" && !unit.starts_with("1 ("))
 }
 
 /// The number of a study at a path in words: "dither amplitude", "belt velocity of contact guide", `amplitude of dither[1]`.

@@ -158,3 +158,32 @@ fn no_answer_changes_unnoticed() {
     let changed: Vec<String> = changed.into_inner().expect("no thread fails");
     assert!(changed.is_empty(), "{} lines changed:\n{}", changed.len(), changed.join("\n"));
 }
+
+/// A sentence of an answer has two sentences at most, and forty words; notes have the rest.
+#[test]
+fn sentences_are_short() {
+    let words = |text: &str| {
+        let words = text.split_whitespace();
+        words.filter(|word| word.contains(|letter: char| letter.is_alphanumeric())).count()
+    };
+    let ends = |text: &str| {
+        let after = text.match_indices(". ").map(|(at, _)| &text[at + 2..]);
+        1 + after.filter(|rest| rest.starts_with(char::is_uppercase)).count()
+    };
+    let mut long = Vec::new();
+    for answers in fs::read_dir(folder("crates/quell-cli/tests/meaning/answers")).expect("answers")
+    {
+        let path = answers.expect("an answer").path();
+        for line in fs::read_to_string(&path).expect("read").lines() {
+            let Some((verb, sentence)) = line.split_once(" sentence = ") else { continue };
+            let (words, ends) = (words(sentence), ends(sentence));
+            if words > 40 || ends > 2 {
+                let study = path.file_stem().unwrap_or_default().display();
+                long.push(format!(
+                    "{verb} of {study}: {words} words, {ends} sentences: {sentence}"
+                ));
+            }
+        }
+    }
+    assert!(long.is_empty(), "{}", long.join("\n"));
+}

@@ -112,9 +112,13 @@ impl FinishedMap {
         Summary { least: extreme(least), most: extreme(most), words, states }
     }
 
-    /// Warnings about the result.
+    /// Warnings about the study and the result.
     pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+        let study = self.plan.grid().study();
+        let mut warnings = match study.disc() {
+            Ok(disc) => disc.warnings().to_vec(),
+            Err(_) => study.system().warnings().to_vec(),
+        };
         let entries = self.plan.sheet().entries();
         if let Some(settled) = entries.iter().find(|entry| entry.variable.name == "settled") {
             let points = 0..self.plan.grid().len();

@@ -314,18 +314,19 @@ impl<K: StudyKind + Into<Kind>> StudyOf<K> {
     /// Whether the study is valid at the ends of every distribution, or where it hardly ever is beyond.
     fn distributions_are_valid(&self) -> Result<(), Complaints> {
         let mut complaints: Vec<Complaint> = Vec::new();
-        for (path, origin, extremes) in
+        for (path, origin, distribution, extremes) in
             self.uncertainty().into_iter().flat_map(Uncertainty::extremes)
         {
             for value in extremes {
                 let Err(wrong) = self.at([(path, value)]) else { continue };
                 let key = format!("uncertainty.\"{path}\"");
+                let given = uncertainty::in_words(distribution);
                 complaints.extend(wrong.into_iter().map(|complaint| {
                     let allowed = uncertainty::beyond(path, value, &complaint);
                     Complaint {
                         key: key.clone(),
                         origin,
-                        value: path.into(),
+                        value: given.clone().into(),
                         allowed: allowed.into(),
                         ..complaint
                     }

@@ -49,7 +49,7 @@ pub fn warnings(system: &System, units: UnitSystem, modal: bool) -> Vec<String> 
         let hertz = (mechanical.stiffness()[(i, i)] / mass[(i, i)]).sqrt() / TAU;
         if hertz > FREQUENCIES.1 || (hertz > 0.0 && hertz < FREQUENCIES.0) {
             warnings.push(format!(
-                "{coordinate} alone would vibrate at {hertz:.3e} Hz. Check whether mass and stiffness are in {name}."
+                "{coordinate} alone would vibrate at {hertz:.3e} Hz: check whether mass and stiffness are in {name}"
             ));
             break;
         }
@@ -63,8 +63,8 @@ pub fn warnings(system: &System, units: UnitSystem, modal: bool) -> Vec<String> 
     let load = system.contacts.iter().map(|contact| contact.normal_load).fold(0.0, f64::max);
     if load > HEAVIEST_LOAD * GRAVITY * kilograms {
         warnings.push(format!(
-            "A load of {} N on masses of at most {kilograms:.3e} kg is {:.1e} times their weight. Check whether the masses are in \
-             {name}{}.",
+            "a load of {} N on masses of at most {kilograms:.3e} kg is {:.1e} times their weight: check whether the masses are in \
+             {name}{}",
             digits(load, 6),
             load / (GRAVITY * kilograms),
             or_other(units)
@@ -86,7 +86,7 @@ fn of_magnitudes(system: &System, units: UnitSystem, length: f64) -> Vec<String>
         let speed = contact.surface_velocity.mean().abs() * length;
         if speed > FASTEST {
             warnings.push(format!(
-                "The surface of contact {} moves at {} m/s. Check the unit of its velocity.",
+                "the surface of contact {} moves at {} m/s: check the unit of its velocity",
                 contact.name,
                 digits(speed, 6)
             ));
@@ -94,7 +94,7 @@ fn of_magnitudes(system: &System, units: UnitSystem, length: f64) -> Vec<String>
         let coefficient = contact.friction.static_coefficient();
         if coefficient > ROUGHEST {
             warnings.push(format!(
-                "The friction coefficient of contact {} is {} at rest. Check whether it is a ratio, not per cent or a force.",
+                "the friction coefficient of contact {} is {} at rest: check whether it is a ratio, not per cent or a force",
                 contact.name,
                 digits(coefficient, 6)
             ));
@@ -102,7 +102,7 @@ fn of_magnitudes(system: &System, units: UnitSystem, length: f64) -> Vec<String>
         let load = contact.normal_load * newtons;
         if load > STRONGEST {
             warnings.push(format!(
-                "The load of contact {} is {} N. Check its unit.",
+                "the load of contact {} is {} N: check its unit",
                 contact.name,
                 digits(load, 6)
             ));
@@ -112,7 +112,7 @@ fn of_magnitudes(system: &System, units: UnitSystem, length: f64) -> Vec<String>
         let amplitude = wave.amplitude.abs() * newtons;
         if amplitude > STRONGEST {
             warnings.push(format!(
-                "The amplitude of a dither is {} N. Check its unit.",
+                "the amplitude of a dither is {} N: check its unit",
                 digits(amplitude, 6)
             ));
         }
@@ -129,7 +129,7 @@ fn of_modes(system: &System, mechanical: &Mechanical, units: UnitSystem) -> Vec<
         .map(|i| (mechanical.stiffness()[(i, i)] / mass[(i, i)]).max(0.0).sqrt())
         .fold(0.0, f64::max);
     let question = format!(
-        "Check whether the shapes are normalised to unit mass in {}{}: between kg and t they differ by the factor 31.6",
+        "check whether the shapes are normalised to unit mass in {}{}: between kg and t they differ by the factor 31.6",
         units.name(),
         or_other(units)
     );
@@ -145,18 +145,18 @@ fn of_modes(system: &System, mechanical: &Mechanical, units: UnitSystem) -> Vec<
         let name = &contact.name;
         if !(MASSES_OF_MODES.0..=MASSES_OF_MODES.1).contains(&in_kilograms) {
             warnings.push(format!(
-                "The modes have a mass of {in_kilograms:.3e} kg at contact {name}. {question}."
+                "the modes have a mass of {in_kilograms:.3e} kg at contact {name}: {question}"
             ));
         } else if weights > HEAVIEST_LOAD_ON_MODES {
             warnings.push(format!(
-                "The load of {} N at contact {name} is {weights:.1e} times the weight of the {in_kilograms:.3e} kg that the modes \
-                 have there. {question}.",
+                "the load of {} N at contact {name} is {weights:.1e} times the weight of the {in_kilograms:.3e} kg that the modes \
+                 have there: {question}",
                 digits(contact.normal_load, 6)
             ));
         } else if let Some(ratio) = spring.filter(|ratio| *ratio > STIFFEST_CONTACT) {
             warnings.push(format!(
-                "On the mass that the modes have at contact {name}, {in_kilograms:.3e} kg, its normal spring alone would vibrate at \
-                 {} times the frequency of the highest mode. {question}, or whether modes are missing.",
+                "on the mass that the modes have at contact {name}, {in_kilograms:.3e} kg, its normal spring alone would vibrate at \
+                 {} times the frequency of the highest mode: {question}, or whether modes are missing",
                 digits(ratio, 3)
             ));
         }
@@ -180,15 +180,15 @@ pub(super) fn half_symmetric(system: &System) -> Vec<String> {
         let (i, j) = half_pair(matrix)?;
         let entry = digits(matrix[(i, j)], 6);
         Some(format!(
-            "system.{name}[{i}][{j}] is {entry}, but system.{name}[{j}][{i}] is 0. Check whether the second entry of a \
-             symmetric pair is missing; a {name} that is unsymmetric on purpose is allowed."
+            "system.{name}[{i}][{j}] is {entry}, but system.{name}[{j}][{i}] is 0: check whether the second entry of a \
+             symmetric pair is missing; a {name} that is unsymmetric on purpose is allowed"
         ))
     });
     let lost = lost_sign(mechanical.stiffness()).map(|(i, j)| {
         let [entry, other] = [(i, j), (j, i)].map(|at| digits(mechanical.stiffness()[at], 6));
         format!(
-            "system.stiffness[{i}][{j}] is {entry}, but system.stiffness[{j}][{i}] is {other}. Check whether one of a symmetric pair has \
-             lost its sign; a stiffness that is unsymmetric on purpose is allowed."
+            "system.stiffness[{i}][{j}] is {entry}, but system.stiffness[{j}][{i}] is {other}: check whether one of a symmetric pair has \
+             lost its sign; a stiffness that is unsymmetric on purpose is allowed"
         )
     });
     found.chain(lost).collect()

@@ -33,13 +33,14 @@ fn depth(key: &Key) -> usize {
 
 /// Whether a key was named by its symbol, as `zeta` for ζ or `mu_s` for μ_s.
 fn same_symbol(name: &str, key: &Key) -> bool {
-    let symbol = match key.role {
-        vocabulary::Role::Number(parameter) => parameter.symbol,
-        _ => return false,
-    };
-    let symbol = spelled(symbol);
+    let vocabulary::Role::Number(parameter) = key.role else { return false };
     let name = spelled(name);
-    name == symbol || (symbol == "d" && (name == "dt" || name == "dn"))
+    // An amplitude is also asked for by the symbol of its force.
+    let of_twins = parameter.si.iter().filter_map(|twin| Some(twin.own?.0));
+    [parameter.symbol].into_iter().chain(of_twins).any(|symbol| {
+        let symbol = spelled(symbol);
+        name == symbol || (symbol == "d" && (name == "dt" || name == "dn"))
+    })
 }
 
 /// A symbol in plain letters: Greek letters by name, no underscores, subscripts as digits.
@@ -86,6 +87,7 @@ mod tests {
             ("dither", "D_T", "dither.amplitude"),
             ("", "titel", "title"),
             ("", "amplitude", "dither.amplitude"),
+            ("", "a", "dither.amplitude"),
             ("solver", "tolerence", "solver.tolerance"),
         ] {
             let table = Section::ALL.iter().find(|section| section.path() == table).copied();

@@ -7,6 +7,7 @@
 use quell_design::probability::{Distribution, JointDistribution};
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
+use quell_model::digits::digits;
 use quell_model::parameter::Bounds;
 use serde_json::Value as Json;
 
@@ -18,6 +19,9 @@ use super::vocabulary::{DISTRIBUTIONS, join};
 /// Standard deviations of a normal number at which a study must be valid: values beyond them have a probability of 10⁻⁶ on each
 /// side.
 const CHECKED: f64 = 4.753_424_308_822_899;
+
+/// Digits of a number in a complaint.
+const DIGITS: usize = 6;
 
 /// The tables of numbers with a joint distribution.
 const COVARIANCE: &str = "covariance";
@@ -51,14 +55,24 @@ impl Uncertainty {
 
     /// Every number with the values at which the study must be valid: the ends of its distribution, or values that it hardly ever
     /// exceeds.
-    pub(super) fn extremes(&self) -> impl Iterator<Item = (&str, Origin, [f64; 2])> {
+    pub(super) fn extremes(&self) -> impl Iterator<Item = (&str, Origin, Distribution, [f64; 2])> {
         self.numbers.iter().zip(self.joint.distributions()).map(|(number, distribution)| {
             let (low, high) = distribution
                 .ends()
                 .unwrap_or_else(|| (distribution.at(-CHECKED), distribution.at(CHECKED)));
-            (number.path.as_str(), number.origin, [low, high])
+            (number.path.as_str(), number.origin, *distribution, [low, high])
         })
     }
+}
+
+/// A distribution as a study has it.
+pub(super) fn in_words(distribution: Distribution) -> String {
+    let (name, first, second) = match distribution {
+        Distribution::Normal { mean, deviation } => ("normal", mean, deviation),
+        Distribution::Lognormal { median, sigma } => ("lognormal", median, sigma),
+        Distribution::Uniform { from, to } => ("uniform", from, to),
+    };
+    format!("{{ {name} = [{}, {}] }}", digits(first, DIGITS), digits(second, DIGITS))
 }
 
 /// What is wrong with an extreme value of a distribution, and what to do; `about` is the complaint about the study with that value.
@@ -69,8 +83,9 @@ pub(super) fn beyond(path: &str, value: f64, about: &Complaint) -> String {
     } else {
         format!("does not fit {}, which must be {}", about.key, about.allowed)
     };
+    let value = digits(value, DIGITS);
     format!(
-        "a distribution of values that give valid studies: {path} = {value:.6}, which has a probability of at least 10⁻⁶, {must}; a \
+        "a distribution of values that give valid studies: {path} = {value}, which has a probability of at least 10⁻⁶, {must}; a \
          distribution of its own can have positive values alone (lognormal = [median, sigma]) or ends (uniform = [from, to]); in \
          [uncertainty.covariance] leave the number out (`quell fit --fix` keeps it)"
     )

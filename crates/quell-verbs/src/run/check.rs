@@ -14,12 +14,33 @@ use crate::noise;
 use crate::range::outside_of_laws;
 use crate::removed_mean;
 use crate::study::{GivenSize, SystemStart, SystemStudy};
+use crate::words::counted;
+
+/// That the study is valid, and what it has.
+pub fn sentence(study: &SystemStudy) -> String {
+    let system = study.system();
+    let names = system.structure.names().len();
+    let form = match &system.structure {
+        Structure::Mechanical(_) => "coordinate",
+        Structure::StateSpace(_) => "state",
+    };
+    let some = |count: usize, noun: &str| match count {
+        0 => format!("no {noun}"),
+        count => counted(count, noun),
+    };
+    format!(
+        "The study is valid. It has {}, {} and {}.",
+        counted(names, form),
+        some(system.contacts.len(), "contact"),
+        some(system.waves().count(), "dither")
+    )
+}
 
 /// The study as JSON.
 pub fn json(study: &SystemStudy) -> Json {
     let system = study.system();
     let mut fields = Fields::in_units(study.units());
-    fields.plain("ok", true);
+    fields.plain("ok", true).plain("sentence", sentence(study));
     match study.title() {
         Some(title) => fields.plain("title", title),
         None => fields.unknown("title", "the study has no title"),

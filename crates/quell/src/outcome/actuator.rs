@@ -8,7 +8,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::figure;
+use super::table::{NumberColumns, figure, heading};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::picture;
@@ -56,19 +56,16 @@ impl Presented<SystemSetup> for ActuatorFound {
 
 /// Ends, changes, resonances and the largest margin.
 fn table(found: &ActuatorFound, study: &SystemStudy) -> String {
-    let unit = if study.units().unit(Quantity::Force).is_some() { "/N" } else { "" };
+    let unit = study.units().unit(Quantity::Force);
     let scale = study.frequency_scale();
-    let mut text = String::new();
-    let frequency =
-        if scale.unit.is_empty() { scale.noun.to_owned() } else { "frequency/Hz".to_owned() };
-    let _ = writeln!(
-        text,
-        "  {frequency:>17}  {:>14}  {:>14}  {:>10}  {:<15}  at",
-        format!("largest{unit}"),
-        format!("needed{unit}"),
-        "margin",
-        "limit"
-    );
+    let headings = [
+        heading(scale.noun, Some(scale.unit.trim()).filter(|unit| !unit.is_empty())),
+        heading("largest force", unit),
+        heading("needed force", unit),
+        "margin".to_owned(),
+    ];
+    let (columns, line) = NumberColumns::under(&headings);
+    let mut text = format!("{line}  {:<15}  at\n", "limit");
     let number = |value: Result<f64, NoAnswer>| value.map_or_else(|_| "unknown".to_owned(), figure);
     for (what, at) in &found.notable {
         let reach = at.reach();
@@ -76,14 +73,14 @@ fn table(found: &ActuatorFound, study: &SystemStudy) -> String {
             Ok(margin) if margin.is_infinite() => "-".to_owned(),
             margin => number(margin),
         };
-        let _ = writeln!(
-            text,
-            "  {:>17}  {:>14}  {:>14}  {margin:>10}  {:<15}  {what}",
+        let cells = [
             figure(scale.of(at.frequency)),
             number(reach.clone().map(|reach| reach.amplitude)),
             number(at.needed.clone()),
-            reach.map_or("unknown", |reach| reach.limit.name())
-        );
+            margin,
+        ];
+        let limit = reach.map_or("unknown", |reach| reach.limit.name()).replace('_', " ");
+        let _ = writeln!(text, "{}  {limit:<15}  {what}", columns.line(&cells));
     }
     text
 }

@@ -12,6 +12,7 @@ use crate::run::{check, disc, law};
 use crate::study::{
     DiscSetup, DiscStudy, GivenSize, StudyOf, SystemSetup, SystemStudy, UnitSystem,
 };
+use crate::words::{quantity_at, unit_after};
 
 /// Marks a valid study; the answer of `check` follows from the study alone.
 #[derive(Clone, Copy, Debug)]
@@ -19,13 +20,14 @@ pub struct Valid;
 
 impl Presented<DiscSetup> for Valid {
     const NAME: &'static str = "check";
+    const TITLED: bool = true;
 
     fn json(&self, study: &DiscStudy) -> Json {
         disc::check::json(study)
     }
 
     fn sentence(&self, study: &DiscStudy) -> Option<String> {
-        Some(sentence(study))
+        Some(disc::check::sentence(study))
     }
 
     fn table(&self, study: &DiscStudy) -> String {
@@ -35,23 +37,19 @@ impl Presented<DiscSetup> for Valid {
 
 impl Presented<SystemSetup> for Valid {
     const NAME: &'static str = "check";
+    const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
         check::json(study)
     }
 
     fn sentence(&self, study: &SystemStudy) -> Option<String> {
-        Some(sentence(study))
+        Some(check::sentence(study))
     }
 
     fn table(&self, study: &SystemStudy) -> String {
         system_table(study)
     }
-}
-
-fn sentence<K>(study: &StudyOf<K>) -> String {
-    let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
-    format!("{title}the study is valid.")
 }
 
 /// A size with its key, and what makes it a force.
@@ -66,7 +64,9 @@ fn axes<K>(table: &mut TextTable, study: &StudyOf<K>) {
     for sweep in study.sweeps() {
         let (first, last) = (sweep.axis.value(0), sweep.axis.value(usize::MAX));
         let points = sweep.axis.len();
-        table.word("axis", &format!("{} from {first} to {last}, {points} points", sweep.path));
+        let unit = unit_after(Some(sweep.target.unit));
+        let number = quantity_at(&sweep.path);
+        table.word("axis", &format!("{number} from {first} to {last}{unit}, {points} points"));
     }
 }
 
@@ -194,7 +194,7 @@ fn disc_table(study: &DiscStudy) -> String {
             .map(|(name, value)| {
                 let unit = load["units"][name].as_str().filter(|unit| !unit.starts_with('1'));
                 let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
-                format!("{} {value}{unit}", name.replace('_', " "))
+                format!("{} {value}{unit}", quantity_at(name))
             })
             .collect();
         table.word(&format!("load {index}"), &words.join(", "));

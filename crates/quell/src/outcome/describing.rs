@@ -6,7 +6,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::{figure, figure_in_units};
+use super::table::{NumberColumns, figure, figure_in_units, heading, rate_heading};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
@@ -39,8 +39,6 @@ impl Presented<SystemSetup> for DescribedContacts {
 }
 
 fn table(study: &SystemStudy, done: &DescribedContacts) -> String {
-    let unit =
-        study.units().unit(Quantity::Velocity).map_or(String::new(), |unit| format!(" in {unit}"));
     let mut text = String::new();
     for (index, contact) in done.contacts.iter().enumerate() {
         let growth = done.balance.as_ref().ok().filter(|balance| balance.contact == index);
@@ -48,20 +46,26 @@ fn table(study: &SystemStudy, done: &DescribedContacts) -> String {
             figure_in_units(study.units(), Quantity::Velocity, contact.velocity),
             figure_in_units(study.units(), Quantity::Force, contact.normal_load),
         );
-        let name = growth.map_or("", |_| "growth rate");
-        let _ = write!(
+        let unit = |quantity| study.units().unit(quantity);
+        let headings = [
+            heading("amplitude a", unit(Quantity::Velocity)),
+            "mean coefficient".to_owned(),
+            heading("gain N₁", unit(Quantity::PerVelocity)),
+            heading("N₁ without dither", unit(Quantity::PerVelocity)),
+        ];
+        let rate = growth.map(|_| rate_heading(study.units()));
+        let headings: Vec<String> = headings.into_iter().chain(rate).collect();
+        let (columns, line) = NumberColumns::under(&headings);
+        let _ = writeln!(
             text,
-            "Contact {}, slip velocity {velocity} + a sin φ, a{unit}, load {load}: mean coefficient, gain N₁ of the sinusoid, N₁ \
-             without dither\n  {:>14}  {:>14}  {:>14}  {:>14}  {name:>14}\n",
-            contact.name, "a", "mean", "N₁", "undithered"
+            "Contact {}, slip velocity {velocity} + a sin φ, load {load}: mean coefficient and gain N₁ of the sinusoid\n{line}",
+            contact.name
         );
         for (row, point, bare) in contact.curve.tenths() {
             let rate = growth.map(|balance| balance.growth[row]);
             let cells = [point.amplitude, point.coefficient, point.gain, bare.gain];
-            for cell in cells.into_iter().chain(rate) {
-                let _ = write!(text, "  {:>14}", figure(cell));
-            }
-            text.push('\n');
+            let cells: Vec<String> = cells.into_iter().chain(rate).map(figure).collect();
+            let _ = writeln!(text, "{}", columns.line(&cells));
         }
     }
     let trimmed: Vec<&str> = text.lines().map(str::trim_end).collect();

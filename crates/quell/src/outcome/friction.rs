@@ -6,14 +6,15 @@ use quell_linear::averaging::SlopeSide;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::table::figure;
+use super::table::{NumberColumns, figure, heading};
 use super::{Presented, friction_export};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::friction::{
-    ContactCurves, ContactFriction, FrictionCurve, FrictionPoint, MeasuredFriction, export,
+    ContactCurves, ContactFriction, FrictionCurve, FrictionPoint, MeasuredFriction, NoCoefficient,
+    export,
 };
 use crate::run::law;
 use crate::run::system::velocity_in_words;
@@ -27,6 +28,14 @@ impl Presented<SystemSetup> for ContactCurves {
 
     fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.notes(study)
     }
 
     fn table(&self, study: &SystemStudy) -> String {
@@ -57,43 +66,54 @@ impl Presented<SystemSetup> for ContactCurves {
 }
 
 fn table(study: &SystemStudy, contact: &ContactFriction) -> String {
-    let unit = study.units().unit(Quantity::Velocity);
-    let unit = unit.map_or(String::new(), |unit| format!(" in {unit}"));
+    let unit = |quantity| study.units().unit(quantity);
     let curve = &contact.curve;
     let mut text = format!("Contact {}\n", contact.name);
     for (label, words) in law::words(&contact.law, &|speed| velocity_in_words(study, speed)) {
         let _ = writeln!(text, "{}: {words}", label.trim());
     }
-    let (words, names) = match curve.measured {
-        None => ("", String::new()),
-        Some(_) => (
+    let mut headings = vec![
+        heading("slip velocity v_r", unit(Quantity::Velocity)),
+        "coefficient μ".to_owned(),
+        "effective μ̄".to_owned(),
+        heading("slope μ̄′", unit(Quantity::PerVelocity)),
+    ];
+    let (words, last) = if curve.measured.is_some() {
+        headings.extend(["measured ⟨f/N⟩", "time in stick"].map(str::to_owned));
+        (
             "; the friction ⟨f/N⟩ of steady responses, the fraction of the period in stick, and the stability of the response",
-            format!("  {:>14}  {:>14}  response", "measured", "in stick"),
-        ),
+            "  response",
+        )
+    } else {
+        ("", "")
     };
-    let _ = write!(
+    let (columns, line) = NumberColumns::under(&headings);
+    let _ = writeln!(
         text,
-        "Friction versus slip velocity v_r{unit}: the law μ, the effective friction μ̄ under the dither, and its slope{words}\n  {:>14}  \
-         {:>14}  {:>14}  {:>14}{names}\n",
-        "v_r", "μ", "μ̄", "μ̄′"
+        "Friction versus slip velocity: the law μ, the effective friction μ̄ under the dither, and its slope{words}\n{line}{last}"
     );
     // The full grid goes to files and programs; the table shows every tenth point.
     let stride = if curve.points.len() > FEW { 10 } else { 1 };
     for (index, point) in curve.points.iter().enumerate().step_by(stride) {
-        let law =
-            point.coefficient.as_ref().map_or_else(|_| "any".to_owned(), |value| figure(*value));
+        let law = match &point.coefficient {
+            Ok(value) => figure(*value),
+            Err(NoCoefficient::AtRest { .. }) => "any".to_owned(),
+            Err(NoCoefficient::NotFinite(_)) => "unknown".to_owned(),
+        };
         let (mean, slope) = match &point.effective {
             Ok(found) => (figure(found.coefficient), figure(found.slope)),
             // Without slip any friction may hold; elsewhere a reason follows.
             Err(_) if point.slip_velocity == 0.0 => ("any".to_owned(), "none".to_owned()),
             Err(_) => ("unknown".to_owned(), "unknown".to_owned()),
         };
-        let v = figure(point.slip_velocity);
-        let _ = write!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
-        if let Some(found) = curve.measured.as_ref().and_then(|measured| measured.get(index)) {
-            let _ = write!(text, "  {}", measured_words(found));
-        }
-        text.push('\n');
+        let mut cells = vec![figure(point.slip_velocity), law, mean, slope];
+        let found = curve.measured.as_ref().and_then(|measured| measured.get(index));
+        let last = found.map_or_else(String::new, |found| {
+            let (numbers, words) = measured_words(found);
+            cells.extend(numbers);
+            format!("  {words}")
+        });
+        let _ = writeln!(text, "{}{last}", columns.line(&cells));
     }
     text.push_str(&one_sided(curve.points.iter().step_by(stride)));
     text.push_str(&reasons(curve));
@@ -114,15 +134,15 @@ fn one_sided<'a>(points: impl Iterator<Item = &'a FrictionPoint>) -> String {
     )
 }
 
-/// The columns of the measured friction.
-fn measured_words(found: &MeasuredFriction) -> String {
+/// The columns of the measured friction, and the words after them.
+fn measured_words(found: &MeasuredFriction) -> ([String; 2], String) {
     match found {
         Ok(found) => {
             let which = if found.base { "" } else { ", not the continuation of sliding" };
-            let (coefficient, stuck) = (figure(found.coefficient), figure(found.stick_fraction));
-            format!("{coefficient:>14}  {stuck:>14}  {}{which}", found.verdict.name())
+            let numbers = [found.coefficient, found.stick_fraction].map(figure);
+            (numbers, format!("{}{which}", found.verdict.name()))
         }
-        Err(_) => format!("{:>14}  {:>14}  none", "none", "none"),
+        Err(_) => (["none", "none"].map(str::to_owned), "none".to_owned()),
     }
 }
 

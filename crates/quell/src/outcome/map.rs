@@ -14,7 +14,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::status::Status;
 use crate::sweep::{Grid, VariableArrays};
-use crate::words::plural;
+use crate::words::{capital, plural, quantity_at, quantity_is, unit_after};
 
 impl Outcome for FinishedMap {
     fn inputs(&self) -> Inputs {
@@ -57,10 +57,10 @@ fn table(done: &FinishedMap) -> String {
         let (first, last) = (axis.values.first(), axis.values.last());
         let ends: Vec<String> = first.into_iter().chain(last).map(|value| figure(*value)).collect();
         let spacing = if axis.logarithmic { ", equal ratios" } else { "" };
-        let unit = if axis.unit == "1" { String::new() } else { format!(" {}", axis.unit) };
+        let unit = unit_after(Some(axis.unit));
+        let number = capital(&quantity_at(&axis.path));
         let count = axis.values.len();
-        let _ =
-            writeln!(text, "  {}  {}{unit}, {count} values{spacing}", axis.path, ends.join(" to "));
+        let _ = writeln!(text, "  {number}  {}{unit}, {count} values{spacing}", ends.join(" to "));
     }
     let seconds = done.elapsed.as_secs_f64();
     let _ = write!(text, "  {} points in {seconds:.2} s", grid.len());
@@ -102,7 +102,9 @@ fn place(extreme: &Extreme, grid: &Grid) -> String {
         .axes()
         .iter()
         .zip(&extreme.place)
-        .map(|(axis, value)| format!("{} = {}", axis.path, figure(*value)))
+        .map(|(axis, value)| {
+            quantity_is(&axis.path, &(figure(*value) + &unit_after(Some(axis.unit))))
+        })
         .collect();
     format!("{}  at {}", figure(extreme.value), places.join(", "))
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::figure;
+use super::table::{NumberColumns, figure};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::disc_units::{dataset_in_units, in_units_of_study};
@@ -20,6 +20,10 @@ impl Presented<DiscSetup> for Modes {
 
     fn json(&self, study: &DiscStudy) -> Json {
         in_units_of_study(study, self.json(study))
+    }
+
+    fn sentence(&self, study: &DiscStudy) -> Option<String> {
+        Some(self.sentence(study))
     }
 
     fn table(&self, _: &DiscStudy) -> String {
@@ -38,38 +42,27 @@ impl Presented<DiscSetup> for Modes {
 fn table(done: &Modes) -> String {
     let mut text = String::new();
     let hertz = done.reference_hz.is_some();
-    let _ =
-        write!(text, "  (i, q)    {:>12}  {:>10}  {:>12}  {:>10}", "k²", "β", "φ at load", "β/q");
-    let _ = writeln!(
-        text,
-        "{}",
-        if hertz { format!("  {:>12}  {:>12}", "Hz", "rpm") } else { String::new() }
-    );
+    let mut headings =
+        vec!["k²", "frequency β in ω_ref", "shape φ at load", "critical speed β/q in ω_ref"];
+    if hertz {
+        headings.extend(["frequency in Hz", "critical speed in rpm"]);
+    }
+    let (columns, line) = NumberColumns::under(&headings);
+    let _ = writeln!(text, "  (i, q) {line}");
+    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), figure);
     for (index, row) in done.rows.iter().enumerate() {
-        let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), figure);
-        let _ = write!(
-            text,
-            "  ({}, {:>2})  {:>13}  {:>10}  {:>12}  {:>10}",
-            row.radial,
-            row.diameters,
+        let mut cells = vec![
             cell(row.frequency_parameter),
             figure(row.ratio),
             figure(row.shape_at_load),
             cell(row.critical_speed()),
-        );
+        ];
         if hertz {
-            let _ = write!(
-                text,
-                "  {:>12}  {:>12}",
-                cell(row.frequency_hz),
-                cell(row.critical_speed_rpm())
-            );
+            cells.extend([row.frequency_hz, row.critical_speed_rpm()].map(cell));
         }
-        let _ = writeln!(
-            text,
-            "{}",
-            if done.critical == Some(index) { "  lowest critical speed" } else { "" }
-        );
+        let lowest = if done.critical == Some(index) { "  lowest critical speed" } else { "" };
+        let cells = columns.line(&cells);
+        let _ = writeln!(text, "  ({}, {:>2}){cells}{lowest}", row.radial, row.diameters);
     }
     text
 }

@@ -11,6 +11,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::probability::{SampledKind, VibrationProbability};
 use crate::study::{Study, StudyKind, StudyOf};
+use crate::words::quantity_at;
 
 /// Points of the distribution of the growth rate in datasets and pictures.
 pub(crate) const POINTS: usize = 401;
@@ -63,9 +64,12 @@ where
 
 /// Indices of every number or group of correlated numbers.
 fn table(found: &VibrationProbability) -> String {
-    let names: Vec<String> =
-        found.groups.iter().map(|group| found.names(group).join(" with ")).collect();
-    let width = names.iter().map(String::len).max().unwrap_or(0).max(6);
+    let words = |group: &Vec<usize>| {
+        let names: Vec<String> = found.names(group).into_iter().map(quantity_at).collect();
+        names.join(" with ")
+    };
+    let names: Vec<String> = found.groups.iter().map(words).collect();
+    let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max(6);
     let mut text =
         format!("  {:<width$}  {:>18}  {:>18}\n", "number", "first-order index", "total index");
     for (name, indices) in names.iter().zip(&found.growth.indices) {

@@ -8,7 +8,7 @@ use serde_json::Value as Json;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
-use crate::outcome::table::figure;
+use crate::outcome::table::{figure, heading};
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::simulate::history::KINDS;
@@ -101,7 +101,7 @@ pub(super) fn figure_with(
 
 /// Every event.
 fn events(study: &SystemStudy, done: &Simulation, text: &mut String) {
-    let time = with_unit(study, "t", Quantity::Time);
+    let time = heading("time", study.units().unit(Quantity::Time));
     let _ = writeln!(text, "\n  {time:>14}  {:<10}  {:>4}  contact", "event", "slip");
     for event in &done.history.events {
         let _ = writeln!(
@@ -114,11 +114,6 @@ fn events(study: &SystemStudy, done: &Simulation, text: &mut String) {
         );
     }
     text.push('\n');
-}
-
-/// A heading with the unit of a quantity.
-fn with_unit(study: &SystemStudy, name: &str, quantity: Quantity) -> String {
-    study.units().unit(quantity).map_or(name.to_owned(), |unit| format!("{name}/({unit})"))
 }
 
 /// Events, fractions and forces of every contact.

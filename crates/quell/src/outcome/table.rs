@@ -2,8 +2,9 @@
 
 use quell_model::units::Quantity;
 
+use crate::fields::rate_unit;
 use crate::study::{DiscStudy, UnitSystem};
-use crate::words::unit_after;
+use crate::words::{named_unit, unit_after};
 
 /// Digits of a number in a table.
 const DIGITS: usize = 7;
@@ -23,6 +24,52 @@ impl TextTable {
         let width = self.0.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
         let rows = self.0.iter().map(|(label, value)| format!("  {label:<width$}  {value}\n"));
         rows.collect()
+    }
+}
+
+/// Right-aligned columns of numbers, each under a quantity with its unit.
+#[derive(Debug)]
+pub(super) struct NumberColumns(Vec<usize>);
+
+impl NumberColumns {
+    /// The least width of a column.
+    const LEAST: usize = 14;
+
+    /// The columns under these headings, and the line of the headings without its end.
+    pub(super) fn under(headings: &[impl AsRef<str>]) -> (Self, String) {
+        let widths = headings.iter().map(|name| name.as_ref().chars().count().max(Self::LEAST));
+        let columns = Self(widths.collect());
+        let line = columns.line(headings);
+        (columns, line)
+    }
+
+    /// A row of cells without its end.
+    pub(super) fn line(&self, cells: &[impl AsRef<str>]) -> String {
+        let cells = self.0.iter().zip(cells);
+        let cells = cells.map(|(width, cell)| format!("{:>width$}", cell.as_ref()));
+        let cells: Vec<String> = cells.collect();
+        format!("  {}", cells.join("  "))
+    }
+}
+
+/// A heading: a quantity with its unit.
+pub(super) fn heading(name: &str, unit: Option<&str>) -> String {
+    match named_unit(unit) {
+        Some(unit) => format!("{name} in {unit}"),
+        None => name.to_owned(),
+    }
+}
+
+/// The heading of a growth rate.
+pub(super) fn rate_heading(units: UnitSystem) -> String {
+    heading("growth rate", (units != UnitSystem::None).then(|| rate_unit(units)))
+}
+
+/// The heading of a frequency, and what an angular frequency is in its unit.
+pub(super) fn frequency_heading(units: UnitSystem) -> (&'static str, f64) {
+    match units {
+        UnitSystem::None => ("angular frequency", 1.0),
+        _ => ("frequency in Hz", 1.0 / std::f64::consts::TAU),
     }
 }
 

@@ -15,7 +15,7 @@ use crate::plot::Figure;
 use crate::run::thresholds::curves::{Curves, kind_in_words};
 use crate::run::thresholds::{TRIED, Thresholds, events_in_words, side};
 use crate::study::{SystemSetup, SystemStudy};
-use crate::words::unit_after;
+use crate::words::{capital, quantity_at, unit_after};
 
 impl Presented<SystemSetup> for Thresholds {
     const NAME: &'static str = "thresholds";
@@ -35,9 +35,10 @@ impl Presented<SystemSetup> for Thresholds {
 
     fn table(&self, study: &SystemStudy) -> String {
         let unit = unit_after(study.unit_of(&self.request.parameter));
-        let (path, (from, to)) = (&self.request.parameter, self.request.window);
+        let (from, to) = self.request.window;
+        let number = capital(&quantity_at(&self.request.parameter));
         let [from, to] = [from, to].map(|value| format!("{}{unit}", figure(value)));
-        let mut text = format!("\n{path} from {from} to {to}, {}:\n", self.subject());
+        let mut text = format!("\n{number} from {from} to {to}, {}:\n", self.subject());
         if self.local.as_ref().is_ok_and(|local| local.thresholds.is_empty()) {
             text += "  no local threshold\n";
         }

@@ -6,7 +6,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::figure;
+use super::table::{NumberColumns, figure, heading};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
@@ -43,17 +43,13 @@ impl Presented<SystemSetup> for WaveformComparison {
 /// One line per waveform, with the costs at the amplitude that ranks it; the smallest value of each column has an asterisk.
 fn table(done: &WaveformComparison, unit_of: impl Fn(Quantity) -> Option<&'static str>) -> String {
     let width = done.rows.iter().map(|row| row.label().chars().count()).max().unwrap_or(0);
-    let mut text = format!("  {:<width$}  {:>10}", "waveform", "duty cycle");
-    let unit =
-        |quantity: Quantity| unit_of(quantity).map_or(String::new(), |unit| format!("/{unit}"));
     let [_, costs @ ..] = &COLUMNS;
-    for words in ["averaging", "exact"] {
-        let _ = write!(text, "  {:>14}", format!("{words}{}", unit(Quantity::Force)));
-    }
-    for column in costs {
-        let _ = write!(text, "  {:>14}", format!("{}{}", column.words, unit(column.quantity)));
-    }
-    text.push('\n');
+    let amplitudes = ["averaged", "exact"]
+        .map(|words| heading(&format!("{words} amplitude"), unit_of(Quantity::Force)));
+    let costs_headings = costs.iter().map(|column| heading(column.words, unit_of(column.quantity)));
+    let headings: Vec<String> = amplitudes.into_iter().chain(costs_headings).collect();
+    let (columns, line) = NumberColumns::under(&headings);
+    let mut text = format!("  {:<width$}  {:>10}{line}\n", "waveform", "duty cycle");
     let by = done.ranked_by();
     let cell = |value: Option<f64>, is_best: bool| {
         let mark = if is_best { "*" } else { "" };
@@ -65,17 +61,14 @@ fn table(done: &WaveformComparison, unit_of: impl Fn(Quantity) -> Option<&'stati
         let is_best =
             |column: &CostColumn| done.best(column).is_some_and(|best| std::ptr::eq(best, row));
         let averaged = row.averaged.as_ref().ok().map(|least| least.amplitude);
-        for (way, value) in [
+        let amplitudes = [
             (RankedBy::Averaging, averaged),
             (RankedBy::Exact, row.exact.as_ref().ok().map(|least| least.amplitude)),
-        ] {
-            let best = by == way && is_best(&COLUMNS[0]);
-            let _ = write!(text, "  {:>14}", cell(value, best));
-        }
-        for column in costs {
-            let value = done.ranked(row, column);
-            let _ = write!(text, "  {:>14}", cell(value, is_best(column)));
-        }
+        ]
+        .map(|(way, value)| cell(value, by == way && is_best(&COLUMNS[0])));
+        let costs = costs.iter().map(|column| cell(done.ranked(row, column), is_best(column)));
+        let cells: Vec<String> = amplitudes.into_iter().chain(costs).collect();
+        text += &columns.line(&cells);
         text.push('\n');
     }
     let _ = writeln!(

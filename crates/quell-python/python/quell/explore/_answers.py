@@ -13,7 +13,7 @@ from .._system import System
 from ..results import Simulation
 from ._friction import contacts_of, friction_of_belt
 from ._moment import knot_times, of_a_moment, steady, varies
-from ._reading import Answer, Array, array_name, number_of, unit, values
+from ._reading import Answer, Array, array_name, number_of, said, unit, values
 
 SLOW_PERIODS = 20
 """Slow periods in a trajectory."""
@@ -35,13 +35,12 @@ def averaged(study: Study) -> Answer:
     growth = facts.get("growth_rate")
     laws = friction_of_belt(study) if study._native.kind == "belt" else contacts_of(study, facts)
     return {
-        "sentence": facts.get("sentence", ""),
+        **said(found),
         "verdict": facts.get("verdict", "unknown"),
         "growth": growth,
         "criterion": facts.get("criterion"),
         "undithered": (facts.get("undithered") or {}).get("verdict"),
         "laws": laws,
-        "warnings": found.warnings,
     }
 
 
@@ -126,9 +125,8 @@ def trajectory(study: Study, start: Mapping[str, float] | None, pair: int = -1) 
         "pairs": [it[0] for it in pairs],
         "pair": pair,
         "units": (unit(run, "time"), unit(run, array_name(first)), unit(run, array_name(second))),
-        "sentence": run.facts.get("sentence", ""),
+        **said(run),
         "sliding": number_of(study, "belt.belt_velocity", "belt.belt_velocity_m_per_s") if kind == "belt" else None,
-        "warnings": run.warnings,
     }
 
 

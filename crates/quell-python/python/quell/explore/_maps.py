@@ -9,7 +9,7 @@ import numpy as np
 
 from .._study import Study
 from ._moment import of_a_moment
-from ._reading import Answer, Array, array_name, unit, values
+from ._reading import Answer, Array, array_name, said, unit, values
 
 Progress = Callable[[int, int], object]
 Axis = tuple[str, float, float, bool]
@@ -61,7 +61,7 @@ def curves(study: Study, across: Axis, up: Axis) -> Answer:
     """The exact thresholds in two parameters as curves."""
     found: Any = study.thresholds(up[0], up[1], up[2], along=across[0], between=(across[1], across[2]))
     exact = [{"x": np.array(twin(it, "along")), "y": np.array(twin(it, "value")), "kind": it["kind"]} for it in found.facts["curves"]]
-    return {"curves": exact, "sentence": found.facts["sentence"], "warnings": found.warnings}
+    return {"curves": exact, **said(found)}
 
 
 def twin(facts: Mapping[str, Any], name: str) -> Any:
@@ -87,8 +87,7 @@ def basins(study: Study, grid: tuple[int, int], progress: Progress | None = None
         "fractions": [float(it["fraction"]) for it in found.facts["attractors"]],
         "names": (first, second),
         "units": (unit(found, array_name(first)), unit(found, array_name(second))),
-        "sentence": found.facts["sentence"],
-        "warnings": found.warnings,
+        **said(found),
     }
 
 
@@ -102,6 +101,5 @@ def eigenvalues(study: Study, parameter: str, start: float, stop: float) -> Answ
         "frequency": values(found, "frequency"),
         "unit": unit(found, "growth_rate"),
         "local": [float(it["value"]) for it in found.facts["local"]],
-        "sentence": found.facts["sentence"],
-        "warnings": found.warnings,
+        **said(found),
     }

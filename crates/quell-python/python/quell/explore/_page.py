@@ -451,7 +451,7 @@ class Page:
         elif event.name == "averaged":
             self.verdict.show_averaged(event.answer)
         else:
-            self.verdict.show_exact(event.answer["sentence"] if self.state.study._native.kind != "disc" else "")
+            self.verdict.show_exact(event.answer if self.state.study._native.kind != "disc" else None)
         if not self._fresh.show(event):
             self.verdict.dim(event.name)
 

@@ -26,6 +26,16 @@ def words(text: str, size: int = TEXT, colour: str = "#222", weight: int = 400) 
     return f'<div style="font-family:{FONT};font-size:{size}px;color:{colour};font-weight:{weight};line-height:1.35">{inside}</div>'
 
 
+def said_in(answer: dict[str, Any]) -> str:
+    """The sentence of an answer with its notes below it, as HTML."""
+    return words("\n".join([answer["sentence"], *answer["notes"]]), TEXT - 1)
+
+
+def below(notes: list[str]) -> str:
+    """Notes below a sentence that is larger, as HTML."""
+    return words("\n".join(notes), TEXT - 1) if notes else ""
+
+
 def paragraph(width: int, *css: str) -> Any:
     """An empty piece of HTML."""
     return pn.pane.HTML("", width=width, margin=MARGIN, css_classes=list(css))
@@ -118,7 +128,7 @@ class MotionPane(Pane):
         """Draws a run."""
         self.names = answer["names"]
         self.picture.show(answer)
-        self.sentence.object = words(answer["sentence"], TEXT - 1)
+        self.sentence.object = said_in(answer)
         self.player.value = 0
         self.coordinate.visible = len(answer["pairs"]) > 1
         self.is_shown = True
@@ -181,7 +191,7 @@ class EigenPane(Pane):
         """Draws the branches."""
         label = next((name for name, path in self.parameter.options.items() if path == self.parameter.value), "")
         self.picture.show(answer, label)
-        self.sentence.object = words(answer["sentence"], TEXT - 1)
+        self.sentence.object = said_in(answer)
 
 
 class SoundPane(Pane):
@@ -218,9 +228,9 @@ class QuestionPane(Pane):
         self._bodies = [self.picture, self.sentence]
 
     def show(self, answer: dict[str, Any]) -> None:
-        """Shows the picture, the sentence and the warnings."""
+        """Shows the picture, the sentence, the notes and the warnings."""
         self.picture.object = answer["picture"]
-        self.sentence.object = words("\n".join([answer["sentence"], *answer["warnings"]]), TEXT - 1)
+        self.sentence.object = said_in({**answer, "notes": [*answer["notes"], *answer["warnings"]]})
 
 
 class MeasuredPane(QuestionPane):
@@ -258,12 +268,13 @@ class Verdict:
         """The verdict about steady sliding."""
         colours = {"unstable": STICK, "stable": ACCENT}
         notes = f" ({answer['warnings'][0]})" if answer["warnings"] else ""
-        self.averaged.object = words(answer["sentence"] + notes, TEXT + 1, colours.get(answer["verdict"], "#222"), 600)
+        verdict = words(answer["sentence"] + notes, TEXT + 1, colours.get(answer["verdict"], "#222"), 600)
+        self.averaged.object = verdict + below(answer["notes"])
         self.averaged.styles = CLEAR
 
-    def show_exact(self, sentence: str) -> None:
-        """The exact response in a sentence."""
-        self.exact.object = words(sentence, TEXT + 1) if sentence else ""
+    def show_exact(self, answer: dict[str, Any] | None) -> None:
+        """The exact response in a sentence and its notes; nothing without an answer."""
+        self.exact.object = words(answer["sentence"], TEXT + 1) + below(answer["notes"]) if answer else ""
         self.exact.styles = CLEAR
 
     def dim(self, name: str) -> None:

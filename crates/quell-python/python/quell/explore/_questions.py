@@ -8,7 +8,7 @@ from typing import Any
 
 from .._study import Study
 from ..results import Result
-from ._reading import Answer
+from ._reading import Answer, said
 
 TABLES = {"design": "design", "actuator": "actuator", "probability": "uncertainty"}
 """The table that asks the question of each verb."""
@@ -22,12 +22,12 @@ def asked(study: Study) -> list[str]:
 
 
 def shown(result: Result) -> Answer:
-    """The sentence, the warnings and the picture of an answer."""
+    """What an answer says, and its picture."""
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / "answer.svg"
         result.save(place)
         picture = place.read_text(encoding="utf-8")
-    return {"sentence": str(result.facts.get("sentence", "")), "picture": picture, "warnings": result.warnings}
+    return {"picture": picture, **said(result)}
 
 
 def design(study: Study) -> Answer:

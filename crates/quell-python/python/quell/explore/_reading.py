@@ -15,6 +15,12 @@ Answer = dict[str, Any]
 
 Array = npt.NDArray[np.float64]
 
+
+def said(result: Result) -> Answer:
+    """What a result says in words: the sentence, the notes and the warnings."""
+    return {"sentence": str(result.facts.get("sentence", "")), "notes": result.notes, "warnings": result.warnings}
+
+
 def values(result: Result, name: str) -> Array:
     """An array of a result in the units of the study."""
     return np.asarray(result.arrays[name].values, dtype=np.float64)

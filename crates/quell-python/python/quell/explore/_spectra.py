@@ -12,7 +12,7 @@ from .._study import Study
 from ..results import NoiseResponse
 from ._answers import pairs_of, start_of, times, without_dither
 from ._moment import of_a_moment
-from ._reading import Answer, Array, array_name, unit, values
+from ._reading import Answer, Array, array_name, said, unit, values
 
 MOST_BINS = 1500
 """Most points of a spectrum; each is the largest of its bin."""
@@ -36,9 +36,9 @@ def response(study: Study) -> Answer:
     if study._native.kind == "disc":
         return small_motion(study)
     found: Any = study.response()
-    said = {"sentence": found.facts["sentence"], "loudness": loudness_of(study, found), "warnings": found.warnings}
+    words = {**said(found), "loudness": loudness_of(study, found)}
     if isinstance(found, NoiseResponse):
-        return {**spectra_of_noise(study, found), **said}
+        return {**spectra_of_noise(study, found), **words}
     frequency = values(found, "frequency")
     after, before = values(found, "spectrum_amplitude"), values(found, "spectrum_undithered_amplitude")
     own = unit(found, "frequency")
@@ -51,7 +51,7 @@ def response(study: Study) -> Answer:
     peaks = [it["frequency"] / per_unit for it in found.facts.get("peaks", [])]
     top = 1.3 * rate if rate else 1.5 * max(peaks, default=float(frequency[-1]))
     inside = frequency <= min(top, float(frequency[-1]))
-    return {**in_db(frequency[inside], before[inside], after[inside], end), "unit": "Hz" if in_hertz else own, **said}
+    return {**in_db(frequency[inside], before[inside], after[inside], end), "unit": "Hz" if in_hertz else own, **words}
 
 
 def band_end(facts: Mapping[str, Any], in_hertz: bool) -> float | None:
@@ -160,7 +160,7 @@ def small_motion(study: Study) -> Answer:
     return {
         **in_db(frequency[inside], spectra[0][inside], spectra[1][inside], None),
         "unit": "ω_ref",
-        "sentence": study.stability().facts["sentence"],
+        **said(study.stability()),
         "loudness": "",
         "warnings": after.warnings,
     }

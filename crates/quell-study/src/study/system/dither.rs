@@ -280,9 +280,16 @@ fn target(
 ) -> Option<InputTarget> {
     let Some(at) = table.get("at") else {
         let Some(contact) = table.get("contact") else {
-            let allowed = "a row over the coordinates, such as { x = 1.0 }, or contact, the name of the contact whose load \
-                           is modulated";
-            reader.missing(join(prefix, "at"), node.origin, allowed);
+            // Of a contact the direction is needed too: a study that has one acts on a contact.
+            let key = if table.has("direction") { "contact" } else { "at" };
+            let allowed = match key {
+                "contact" => "the name of the contact on which the dither acts",
+                _ => {
+                    "a row over the coordinates, such as { x = 1.0 }, or in its place contact and direction, the name of the contact \
+                     on which the dither acts and how"
+                }
+            };
+            reader.missing(join(prefix, key), node.origin, allowed);
             return None;
         };
         return of_contact(reader, prefix, node, table, contact, context);

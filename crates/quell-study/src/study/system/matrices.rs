@@ -113,7 +113,7 @@ fn entries(
     if list.len() != n || (rows > 0 && rows < n) || (rows == 0 && !diagonal_allowed) {
         let got = if rows == 0 { "numbers" } else { "rows" };
         let allowed = format!("{shape}, one for each name; got {} {got}", list.len());
-        reader.complain(Complaint::new(Fault::Value, key, node.origin, list.len(), allowed));
+        reader.complain(Complaint::new(Fault::Value, key, node.origin, node.given(), allowed));
         return None;
     }
     let mut matrix = Matrix::zeros(n, n);

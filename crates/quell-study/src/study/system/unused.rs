@@ -33,10 +33,10 @@ pub(super) fn warning(document: &Table, numbers: &NumbersByName) -> Option<Strin
     let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
     match names.as_slice() {
         [] => None,
-        [name] => Some(format!("No formula uses parameters.{name}. It has no effect.")),
+        [name] => Some(format!("no formula uses parameters.{name}: it has no effect")),
         _ => {
             let names = names.join(", parameters.");
-            Some(format!("No formula uses parameters.{names}. They have no effect."))
+            Some(format!("no formula uses parameters.{names}: they have no effect"))
         }
     }
 }

@@ -1,7 +1,5 @@
 //! The answer of `actuator`: sentence, warnings and JSON.
 
-use std::fmt::Write as _;
-
 use quell_design::NoAnswer;
 use quell_design::actuator::{ActuatorAtFrequency, ActuatorLimit, SufficientBand};
 use quell_dynamics::response::BAND_END;
@@ -72,15 +70,14 @@ impl ActuatorFound {
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let kind = study.actuator().map_or("actuator", |actuator| actuator.kind().in_words());
         let waveform = label(&self.waveform);
-        let mut text = match (&self.coverage.sufficient[..], &self.coverage.best) {
+        match (&self.coverage.sufficient[..], &self.coverage.best) {
             _ if self.is_quiet_without() => {
-                format!(
-                    "Steady sliding is stable without this dither: there is nothing to quench. The {kind} can give"
-                )
+                "Steady sliding is stable without this dither: there is nothing to quench."
+                    .to_owned()
             }
             ([], Some(best)) => format!(
                 "By averaging{}, the {kind} cannot quench with a {waveform} from {}: at best, at {}, it gives {} of the least amplitude \
-                 that quenches; it can give",
+                 that quenches.",
                 self.unsure_in_words(study),
                 range_in_words(study, self.range),
                 study.frequency_scale().with_noun(best.frequency),
@@ -89,7 +86,7 @@ impl ActuatorFound {
             ([], None) => {
                 let why = self.coverage.points.iter().find_map(|point| point.needed.as_ref().err());
                 format!(
-                    "With a {waveform} from {} nothing is known to be quenched: {}. The {kind} can give",
+                    "With a {waveform} from {} nothing is known to be quenched: {}.",
                     range_in_words(study, self.range),
                     why.map_or("nothing is known".to_owned(), ToString::to_string)
                 )
@@ -104,7 +101,7 @@ impl ActuatorFound {
                         Err(why) => why.to_string(),
                     };
                     format!(
-                        " The margin is largest at {}, {margin}; it can give",
+                        " The margin is largest at {}, {margin}.",
                         study.frequency_scale().with_noun(best.frequency)
                     )
                 });
@@ -114,25 +111,25 @@ impl ActuatorFound {
                     bands_in_words(study, bands)
                 )
             }
-        };
-        let most = self.best_or_own();
-        match most.reach() {
-            Ok(reach) => {
-                let _ = write!(
-                    text,
-                    " {} there, limited by the {}.",
-                    study.in_words(Quantity::Force, reach.amplitude),
-                    quantity_at(reach.limit.path())
-                );
-            }
-            Err(why) => {
-                let _ = write!(text, " no known amplitude there: {why}.");
-            }
         }
-        text
     }
 
-    /// The changes of the limit that binds.
+    /// The largest amplitude and what limits it, in one sentence.
+    fn reach_in_words(&self, study: &SystemStudy) -> String {
+        let kind = study.actuator().map_or("actuator", |actuator| actuator.kind().in_words());
+        let most = self.best_or_own();
+        let at = study.frequency_scale().with_noun(most.frequency);
+        match most.reach() {
+            Ok(reach) => {
+                let largest = study.in_words(Quantity::Force, reach.amplitude);
+                let limit = quantity_at(reach.limit.path());
+                format!("At {at} the {kind} can give {largest}, limited by the {limit}.")
+            }
+            Err(why) => format!("What the {kind} can give at {at} is unknown: {why}."),
+        }
+    }
+
+    /// The largest amplitude, and the changes of the limit that binds.
     pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
         let scale = study.frequency_scale();
         let changes = self.coverage.changes().map(|(at, [below, above])| {
@@ -141,7 +138,8 @@ impl ActuatorFound {
         });
         let changes: Vec<String> = changes.collect();
         let binds = format!("What binds changes {}.", listed(&changes));
-        (!changes.is_empty()).then_some(binds).into_iter().collect()
+        let binds = (!changes.is_empty()).then_some(binds);
+        [self.reach_in_words(study)].into_iter().chain(binds).collect()
     }
 
     /// The frequency at which the dither repeats as often as the vibration.

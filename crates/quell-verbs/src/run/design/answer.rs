@@ -17,7 +17,7 @@ use super::study_with_design::StudyWithDesign;
 use crate::contact_state::averages_are_a_start;
 use crate::fields::Fields;
 use crate::run::waveforms::label;
-use crate::words::{digits, listed, more_digits, plural, quantity_at};
+use crate::words::{counted, digits, listed, more_digits, quantity_at};
 
 /// A limit binds if at least this share of it is used.
 const BINDS: f64 = 0.9999;
@@ -143,11 +143,6 @@ impl LeastDitherFound {
                         "; this smallest allowed amplitude is quiet everywhere, and less, or no dither, may do"
                     }
                 };
-                let by = match study.asked().map_or(DesignStart::Local, |asked| asked.start) {
-                    DesignStart::Local => "small motions about exact responses",
-                    DesignStart::Rest => "exact responses and runs from rest",
-                    DesignStart::Squeal => "exact responses and runs from squeal",
-                };
                 let slow = self.residual_in_words();
                 let size = format!("{}{}", force(critical.amplitude), chosen(&critical.others));
                 let what = if self.is_quiet() == Ok(true) {
@@ -156,11 +151,7 @@ impl LeastDitherFound {
                     "with which the motion stays in step"
                 };
                 format!(
-                    "The least dither {what} in the whole range is a {waveform}{place} of amplitude {size}{slow}{smallest}. At {} it is \
-                     verified by {by} at {} operating point{}.",
-                    force(found.verified_amplitude),
-                    found.verified.len(),
-                    plural(found.verified.len() as u64)
+                    "The least dither {what} in the whole range is a {waveform}{place} of amplitude {size}{slow}{smallest}."
                 )
             }
             Err(none) => {
@@ -192,7 +183,7 @@ impl LeastDitherFound {
         }
     }
 
-    /// What decides, what the verified dither demands of the actuator and costs, the dither that is quiet in most samples, what a schedule saves, and on
+    /// How the dither was verified, what decides, what the verified dither demands of the actuator and costs, the dither that is quiet in most samples, what a schedule saves, and on
     /// what the amplitude depends most.
     pub fn notes(&self, study: &dyn StudyWithDesign) -> Vec<String> {
         let Ok(found) = &self.answer().answer else { return Vec::new() };
@@ -212,6 +203,7 @@ impl LeastDitherFound {
         let binds = (!binding.is_empty()).then(|| format!("At the limit: {}.", listed(&binding)));
         let largest = more_digits(found.largest_multiplier());
         let notes = [
+            Some(verified_in_words(study, found)),
             decides,
             binds,
             self.slow_in_words(study),
@@ -502,4 +494,16 @@ impl LeastDitherFound {
         }
         self.put_covered(fields, study);
     }
+}
+
+/// How a dither was verified, in one sentence.
+fn verified_in_words(study: &dyn StudyWithDesign, found: &FeasibleDesign) -> String {
+    let by = match study.asked().map_or(DesignStart::Local, |asked| asked.start) {
+        DesignStart::Local => "small motions about exact responses",
+        DesignStart::Rest => "exact responses and runs from rest",
+        DesignStart::Squeal => "exact responses and runs from squeal",
+    };
+    let amplitude = study.in_words(study.quantity_of_amplitude(), found.verified_amplitude);
+    let points = counted(found.verified.len(), "operating point");
+    format!("At {amplitude} this dither is verified by {by} at {points}.")
 }

@@ -16,9 +16,26 @@ use crate::disc_units::DiscUnits;
 use crate::removed_mean;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
+use crate::words::counted;
 
 /// The units of the answers, with the scales of a load; `None` where numbers are those of the equations.
 type LoadUnits = Option<(DiscUnits, DiscScales)>;
+
+/// That the study is valid, and what it has.
+pub fn sentence(study: &DiscStudy) -> String {
+    let disc = study.disc();
+    let dither = match disc.dither() {
+        DiscDither::None => "no dither",
+        DiscDither::Normal { .. } => "normal dither",
+        DiscDither::Tangential { .. } => "tangential dither",
+    };
+    let (modes, loads) = (disc.modes().len(), disc.loads().len());
+    format!(
+        "The study is valid. It has {}, {} and {dither}.",
+        counted(modes, "mode"),
+        counted(loads, "load")
+    )
+}
 
 /// The study as JSON.
 pub fn json(study: &DiscStudy) -> Json {
@@ -34,6 +51,7 @@ pub fn json(study: &DiscStudy) -> Json {
                 "radius_ratio": radius,
                 "angle_deg": load.angle.to_degrees(),
                 LOAD_DITHER_PHASE.key(): load.dither_phase.to_degrees(),
+                "units": { "angle_deg": "deg", LOAD_DITHER_PHASE.key(): "deg" },
             });
             let scales = units.zip(study.scales(index));
             for (parameter, value) in [
@@ -84,6 +102,7 @@ pub fn json(study: &DiscStudy) -> Json {
     warnings.extend(removed_mean::warnings(std::iter::once(disc.waveform())));
     let mut object = json!({
         "ok": true,
+        "sentence": sentence(study),
         "title": study.title(),
         "unit_system": units.map_or(UnitSystem::None, |units| units.system()).name(),
         "disc": {

@@ -6,8 +6,10 @@ use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
 use crate::dataset::{Array, Dataset};
+use crate::disc_units::from_reference;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
+use crate::words::digits;
 
 /// One mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,6 +109,31 @@ pub fn run(study: &DiscStudy) -> Modes {
 }
 
 impl Modes {
+    /// The lowest natural frequency and the lowest critical speed, each with its mode.
+    pub fn sentence(&self, study: &DiscStudy) -> String {
+        let of = |row: &ModeRow| format!("of mode ({}, {})", row.radial, row.diameters);
+        let words = |name: &str, value: f64, usual: Option<(f64, &'static str)>| {
+            let (value, unit) = usual.unwrap_or_else(|| from_reference(study, name, value));
+            format!("{} {unit}", digits(value))
+        };
+        let Some(lowest) = self.rows.iter().min_by(|a, b| a.ratio.total_cmp(&b.ratio)) else {
+            return "The disc has no modes.".to_owned();
+        };
+        let hertz = lowest.frequency_hz.map(|hertz| (hertz, "Hz"));
+        let frequency = words("frequency", lowest.ratio, hertz);
+        let frequency = format!("The lowest natural frequency is {frequency}, {}.", of(lowest));
+        let critical = self.critical.map(|index| &self.rows[index]);
+        let speed = critical.and_then(|row| Some((row, row.critical_speed()?)));
+        match speed {
+            None => format!("{frequency} No mode has a critical speed."),
+            Some((row, speed)) => {
+                let rpm = row.critical_speed_rpm().map(|rpm| (rpm, "rpm"));
+                let speed = words("critical_speed", speed, rpm);
+                format!("{frequency} The lowest critical speed is {speed}, {}.", of(row))
+            }
+        }
+    }
+
     /// As JSON.
     pub fn json(&self, study: &DiscStudy) -> Json {
         let modes: Vec<Json> = self
@@ -157,6 +184,7 @@ impl Modes {
         explain(critical.is_none(), "critical_mode", "no mode has a nodal diameter");
         let mut object = json!({
             "ok": true,
+            "sentence": self.sentence(study),
             "modes": modes,
             "critical_mode": critical,
             "reference_frequency": self.reference,

@@ -17,7 +17,7 @@ use serde_json::{Map, Value as Json, json};
 use super::critical::{self, Critical};
 use super::{overflowed, tangential};
 use crate::complaint::Failure;
-use crate::disc_units::{DiscUnits, FRICTION};
+use crate::disc_units::{DiscUnits, FRICTION, from_reference};
 use crate::reasons::reasons;
 use crate::run::stability::DECIBELS;
 use crate::study::DiscStudy;
@@ -216,12 +216,7 @@ fn put_origin(object: &mut Json, origin: Option<&GrowthShares>) {
 impl DiscStability {
     /// The result in one or two sentences.
     pub fn sentence(&self, study: &DiscStudy) -> String {
-        let units = DiscUnits::of(study);
-        let words = |name: &str, value: f64| {
-            let own = (1.0, "ω_ref");
-            let (one, unit) = units.and_then(|units| units.one(name, own.1)).unwrap_or(own);
-            (one * value, unit)
-        };
+        let words = |name: &str, value: f64| from_reference(study, name, value);
         let (speed, unit) = words("speed", study.disc().speed());
         let speed = format!("{} {unit}", digits(speed));
         let under = match study.disc().dither() {
@@ -240,7 +235,7 @@ impl DiscStability {
             }
             Verdict::Undecided => format!(
                 "At Ω = {speed} the stability of the disc {under} is undecided: the growth rate {rate:.1e} {unit} is zero \
-                 within its error {error:.1e} {unit}. Without damping of its own, a disc is undecided along whole lines of a map."
+                 within its error {error:.1e} {unit}. Discs without damping are undecided along whole lines of a map."
             ),
         }
     }

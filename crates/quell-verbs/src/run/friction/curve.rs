@@ -9,8 +9,11 @@ use quell_model::Friction;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::unknown::{FrictionAtRest, LimitMean, MeasuredFriction, NoMeanOfContact, NotFreeMass};
+use super::unknown::{LimitMean, MeasuredFriction, NoCoefficient, NoMeanOfContact, NotFreeMass};
 use crate::fields::Fields;
+use crate::run::system::velocity_in_words;
+use crate::study::SystemStudy;
+use crate::words::digits;
 
 /// Friction of one contact over its slip velocity.
 #[derive(Clone, Debug)]
@@ -25,8 +28,47 @@ pub struct ContactFriction {
     pub law: Friction,
     /// Largest fast slip velocity in the study, or why it is unknown.
     pub fast_velocity: Result<f64, AveragingError>,
+    /// Friction at the first slip velocity that was asked for, or at the velocity of the surface.
+    pub at: FrictionPoint,
     /// Friction over the slip velocity.
     pub curve: FrictionCurve,
+}
+
+impl ContactFriction {
+    /// The friction that was asked for, in one sentence.
+    pub(super) fn sentence(&self, study: &SystemStudy) -> String {
+        let slip = velocity_in_words(study, self.at.slip_velocity);
+        let of = if study.system().contacts.len() > 1 {
+            format!(" of contact {}", self.name)
+        } else {
+            String::new()
+        };
+        let dithered = study.system().is_dithered();
+        let mean = match &self.at.effective {
+            _ if !dithered => String::new(),
+            Ok(found) => {
+                format!("; averaged over the dither it is {}", digits(found.coefficient))
+            }
+            Err(_) => "; its average over the dither is unknown".to_owned(),
+        };
+        match &self.at.coefficient {
+            Ok(value) => {
+                let value = digits(*value);
+                format!(
+                    "The friction coefficient{of} at the slip velocity {slip} is {value}{mean}."
+                )
+            }
+            Err(NoCoefficient::AtRest { static_coefficient }) => {
+                let level = digits(*static_coefficient);
+                format!("The friction coefficient{of} at rest is at most {level}{mean}.")
+            }
+            Err(why @ NoCoefficient::NotFinite(_)) => {
+                format!(
+                    "The friction coefficient{of} at the slip velocity {slip} is unknown: {why}."
+                )
+            }
+        }
+    }
 }
 
 /// Friction at one slip velocity.
@@ -35,7 +77,7 @@ pub struct FrictionPoint {
     /// Slip velocity v_r.
     pub slip_velocity: f64,
     /// μ with the sign of v_r, dimensionless; or why it has no single value.
-    pub coefficient: Result<f64, FrictionAtRest>,
+    pub coefficient: Result<f64, NoCoefficient>,
     /// μ̄, dimensionless, and its slope per unit of v_r, by finite-R averaging; of a contact with a state its mean over the periodic state;
     /// or why they are undefined.
     pub effective: Result<Effective, NoMeanOfContact>,

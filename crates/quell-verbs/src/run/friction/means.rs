@@ -17,7 +17,8 @@ use quell_numerics::order::ascending;
 
 use super::curve::FrictionPoint;
 use super::unknown::{
-    FrictionAtRest, LimitMean, MeasuredFriction, NoMeanOfContact, NoMeasuredFriction, NotFreeMass,
+    LimitMean, MeasuredFriction, NoCoefficient, NoMeanOfContact, NoMeasuredFriction, NotFinite,
+    NotFreeMass,
 };
 use crate::parallel::Parallel;
 
@@ -91,13 +92,16 @@ impl ContactAverages<'_> {
 
     /// The law and its average at slip velocities.
     pub(super) fn points(&self, at: &[f64]) -> Vec<FrictionPoint> {
-        let law = &self.contact().friction;
-        let points = at.in_parallel(|&v| FrictionPoint {
+        at.in_parallel(|&v| self.point(v)).collect()
+    }
+
+    /// The law and its average at a slip velocity.
+    pub(super) fn point(&self, v: f64) -> FrictionPoint {
+        FrictionPoint {
             slip_velocity: v,
-            coefficient: coefficient_at(law, v),
-            effective: self.mean_at(v),
-        });
-        points.collect()
+            coefficient: coefficient_at(&self.contact().friction, v),
+            effective: self.mean_at(v).and_then(finite),
+        }
     }
 
     fn mean_at(&self, v: f64) -> Result<Effective, NoMeanOfContact> {
@@ -133,7 +137,7 @@ impl ContactAverages<'_> {
         }
         let in_the_limit = |belt: &Belt, v: f64| {
             let law = AveragedLaw::of_one_mass(belt, v, Averaging::Limit);
-            law.and_then(|law| law.at(v))
+            finite(law.and_then(|law| law.at(v))?)
         };
         let belt = self.limit.as_ref().map_err(Clone::clone);
         Some(belt.map(|belt| at.in_parallel(|&v| in_the_limit(belt, v)).collect()))
@@ -186,9 +190,16 @@ fn grid_of(law: &Friction, velocity: f64, fast: f64) -> Vec<f64> {
 }
 
 /// The friction coefficient of a law, with the sign of the slip velocity; or why it has no single value.
-fn coefficient_at(law: &Friction, v: f64) -> Result<f64, FrictionAtRest> {
+fn coefficient_at(law: &Friction, v: f64) -> Result<f64, NoCoefficient> {
     if v == 0.0 {
-        return Err(FrictionAtRest { static_coefficient: law.static_coefficient() });
+        return Err(NoCoefficient::AtRest { static_coefficient: law.static_coefficient() });
     }
-    Ok(v.signum() * law.coefficient(v.abs()))
+    let coefficient = v.signum() * law.coefficient(v.abs());
+    if coefficient.is_finite() { Ok(coefficient) } else { Err(NoCoefficient::NotFinite(NotFinite)) }
+}
+
+/// A mean whose numbers are finite.
+fn finite(found: Effective) -> Result<Effective, NoMeanOfContact> {
+    let numbers = [found.coefficient, found.coefficient_error, found.slope, found.slope_error];
+    if numbers.iter().all(|number| number.is_finite()) { Ok(found) } else { Err(NotFinite.into()) }
 }

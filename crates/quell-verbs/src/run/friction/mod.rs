@@ -13,7 +13,8 @@ use serde_json::Value as Json;
 
 pub use self::curve::{ContactFriction, FrictionCurve, FrictionPoint};
 pub use self::unknown::{
-    FrictionAtRest, LimitMean, MeasuredFriction, NoMeanOfContact, NoMeasuredFriction, NotFreeMass,
+    LimitMean, MeasuredFriction, NoCoefficient, NoMeanOfContact, NoMeasuredFriction, NotFinite,
+    NotFreeMass,
 };
 
 use super::system::has_equations;
@@ -50,6 +51,8 @@ pub fn run(
     warnings.extend(few_lines(system));
     warnings.extend(warnings::slow_dither(study));
     for (contact, means) in system.contacts.iter().zip(means::contacts(system)) {
+        let velocity = contact.surface_velocity.mean();
+        let first = at.and_then(|at| at.first()).copied().unwrap_or(velocity);
         let at = at.map_or_else(|| means.grid(), <[f64]>::to_vec);
         let curve = FrictionCurve {
             points: means.points(&at),
@@ -58,10 +61,11 @@ pub fn run(
         };
         let found = ContactFriction {
             name: contact.name.clone(),
-            velocity: contact.surface_velocity.mean(),
+            velocity,
             normal_load: means.normal_load(),
             law: contact.friction.clone(),
             fast_velocity: means.fast_velocity(),
+            at: means.point(first),
             curve,
         };
         warnings.extend(warnings::of_contact(study, contact, &means, &found));
@@ -81,11 +85,25 @@ fn one_mass(system: &System) -> Result<quell_model::OneMass, Failure> {
 }
 
 impl ContactCurves {
+    /// The friction of the first contact at the slip velocity that was asked for, or at the velocity of its surface.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let first = self.contacts.first();
+        first.map_or_else(
+            || "The study has no contact.".to_owned(),
+            |contact| contact.sentence(study),
+        )
+    }
+
+    /// That of every further contact.
+    pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
+        self.contacts.iter().skip(1).map(|contact| contact.sentence(study)).collect()
+    }
+
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let empty = || Fields::in_units(study.units());
         let mut fields = empty();
-        fields.plain("ok", true);
+        fields.plain("ok", true).plain("sentence", self.sentence(study));
         let contacts = self.contacts.iter().map(|contact| {
             let mut inner = empty();
             inner

@@ -8,20 +8,42 @@ use quell_linear::averaging::{AveragingError, Effective};
 
 use crate::reasons::reasons;
 
-/// At rest a friction coefficient has no single value.
+/// Why the friction coefficient of a law has no value at a slip velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionAtRest {
-    /// The largest value μ_s.
-    pub static_coefficient: f64,
+pub enum NoCoefficient {
+    /// At rest it has no single value.
+    AtRest {
+        /// The largest value μ_s.
+        static_coefficient: f64,
+    },
+    /// The law gives no finite number.
+    NotFinite(NotFinite),
 }
 
-impl fmt::Display for FrictionAtRest {
+impl fmt::Display for NoCoefficient {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at rest friction takes any value up to ±{}", self.static_coefficient)
+        match self {
+            Self::AtRest { static_coefficient } => {
+                write!(f, "at rest friction takes any value up to ±{static_coefficient}")
+            }
+            Self::NotFinite(why) => why.fmt(f),
+        }
     }
 }
 
-impl std::error::Error for FrictionAtRest {}
+impl std::error::Error for NoCoefficient {}
+
+/// A law gives no finite number so far beyond its velocities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotFinite;
+
+impl fmt::Display for NotFinite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the law has no finite value so far beyond its velocities")
+    }
+}
+
+impl std::error::Error for NotFinite {}
 
 reasons! {
     /// Why a contact has no limit of high dither frequency.
@@ -37,6 +59,8 @@ reasons! {
     pub enum NoMeanOfContact {
         /// The law has no average.
         NoAverage(AveragingError),
+        /// The law gives no finite number.
+        NotFinite(NotFinite),
         /// The contact has a state, and is not that of a free mass.
         OfState(NotFreeMass) =>
             "the mean of a contact with a state of its own is that of its periodic state: {}; `response` gives its mean friction",
@@ -61,7 +85,7 @@ reasons! {
 }
 
 /// Mean friction in the limit of high dither frequency, or why it is undefined.
-pub type LimitMean = Result<Effective, AveragingError>;
+pub type LimitMean = Result<Effective, NoMeanOfContact>;
 
 /// Friction of a steady response, or why it has no value.
 pub type MeasuredFriction = Result<SteadyFriction, NoMeasuredFriction>;

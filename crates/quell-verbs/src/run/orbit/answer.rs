@@ -195,6 +195,9 @@ fn put_error(fields: &mut Fields, name: &str, error: f64) {
     }
 }
 
+/// Starts that a sentence lists.
+const FEW_STARTS: usize = 2;
+
 /// What is unknown where no motion was found.
 const FACTS: [&str; 13] = [
     "response",
@@ -227,7 +230,10 @@ impl PeriodicResponse {
     /// The answer in a few sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let Some(found) = &self.found else {
-            let tried = capital(&without_cycle(&self.tried));
+            let tried = match self.tried.len() {
+                0..=FEW_STARTS => capital(&without_cycle(&self.tried)),
+                count => format!("No limit cycle was found by {count} runs"),
+            };
             return match &self.sliding {
                 Some(Ok(verdict)) => format!("{tried}. Steady sliding is {verdict}."),
                 Some(Err(why)) => format!("{tried}. Steady sliding has no verdict: {why}."),
@@ -237,9 +243,14 @@ impl PeriodicResponse {
         sentence(study, found)
     }
 
-    /// Why there is no base response.
+    /// Why there is no base response, or from where many runs began that found no limit cycle.
     pub fn notes(&self) -> Vec<String> {
-        self.found.as_ref().and_then(instead_in_words).into_iter().collect()
+        let tried = || format!("{}.", capital(&without_cycle(&self.tried)));
+        match &self.found {
+            Some(found) => instead_in_words(found).into_iter().collect(),
+            None if self.tried.len() > FEW_STARTS => vec![tried()],
+            None => Vec::new(),
+        }
     }
 
     /// Warnings: those of the study, and one-sided multipliers.

@@ -13,6 +13,10 @@ use quell_dynamics::response::{
     Undefined, respond, vibration_frequency,
 };
 use quell_model::System;
+use quell_model::parameter::indexed;
+use quell_model::parameter::system::SYSTEM_DITHER_FREQUENCY;
+use quell_model::profile::Wave;
+use quell_model::system::Input;
 use quell_model::units::Quantity;
 
 use super::actuator::beyond_actuator;
@@ -24,7 +28,7 @@ use super::system::{failed, frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::reasons::reasons;
 use crate::study::{Solver, SystemStudy};
-use crate::words::{capital, digits, listed, unit_after};
+use crate::words::{capital, digits, more_digits, unit_after};
 
 pub use band::InBand;
 
@@ -141,6 +145,11 @@ pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRef
             Complaint::option("--record", length, allowed).into()
         }
     };
+    if let ResponseRefused::TooLong { most } = why
+        && let Some(complaint) = slow_dither(study, plan.length, most)
+    {
+        return complaint.into();
+    }
     match why {
         ResponseRefused::Immobile(why) => failed("response", why),
         ResponseRefused::Stopped(stopped) => failed_run("response", study.system(), &stopped),
@@ -155,6 +164,34 @@ pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRef
             record("more than", least, "of which a line lies in the band of slow vibration")
         }
     }
+}
+
+/// The complaint about a dither so slow that a record of its periods, which nobody asked for, has too many samples.
+fn slow_dither(study: &SystemStudy, length: f64, most: f64) -> Option<Complaint> {
+    let system = study.system();
+    let lowest = |input: &Input| {
+        let waves = input.profile.waves().iter().filter(|wave| wave.amplitude != 0.0);
+        waves.map(Wave::repetition).fold(f64::INFINITY, f64::min)
+    };
+    let inputs = system.inputs.iter().map(lowest).enumerate();
+    let (slowest, frequency) = inputs.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    if length != RECORD_PERIODS * (TAU / frequency) || study.record().length.is_some() {
+        return None;
+    }
+    let count = system.inputs.len();
+    let (key, given) = SYSTEM_DITHER_FREQUENCY.keys().find_map(|name| {
+        let key = indexed("dither", slowest, count, name);
+        let document = study.document();
+        let table = document.pointer("/dither")?;
+        let table = table.get(slowest).unwrap_or(table);
+        Some((key, table.get(name)?.as_f64()?))
+    })?;
+    let least = more_digits(given * (length / most));
+    let allowed = format!(
+        "at least {least}, for which a record of {RECORD_PERIODS} periods of this dither has all of its samples; or give a shorter \
+         record (--record)"
+    );
+    Some(Complaint::new(Fault::Value, key, Origin::Whole, given, allowed))
 }
 
 /// Measures the steady response of a study.
@@ -259,12 +296,14 @@ impl MeasuredResponse {
             .sentence(effect),
         };
         let is_known = !matches!(response.effect, Effect::Unknown(_));
-        let cost = self.costs(study).filter(|_| is_known);
-        let cost = cost.map_or(String::new(), |cost| format!(" {cost}"));
-        format!("{from}, {what}.{cost}")
+        let losses = self.friction_losses(study);
+        // Those of several contacts are notes.
+        let one = losses.first().filter(|_| is_known && study.system().contacts.len() == 1);
+        let friction = one.map_or(String::new(), |loss| format!(" {loss}"));
+        format!("{from}, {what}.{friction}")
     }
 
-    /// The levels in the requested band, and the mean friction against the run without dither.
+    /// The levels in the requested band, what the dithers cost, and the mean friction against the run without dither.
     pub fn notes(&self, study: &SystemStudy) -> Vec<String> {
         let contacts = study.system().contacts.iter().zip(0..);
         let against = contacts.filter_map(|(contact, index)| {
@@ -282,12 +321,19 @@ impl MeasuredResponse {
                 )
             })
         });
-        self.band_in_words(study).into_iter().chain(against).collect()
+        let is_known = !matches!(self.response.effect, Effect::Unknown(_));
+        let mut notes: Vec<String> = self.band_in_words(study).into_iter().collect();
+        if is_known {
+            let losses = self.friction_losses(study);
+            notes.extend(losses.into_iter().filter(|_| study.system().contacts.len() > 1));
+            notes.extend(self.costs(study));
+        }
+        notes.extend(against);
+        notes
     }
 
-    /// The cost of every dither in a sentence of its own.
-    fn costs(&self, study: &SystemStudy) -> Option<String> {
-        let units = study.units();
+    /// The mean friction of every contact against steady sliding, one sentence each.
+    fn friction_losses(&self, study: &SystemStudy) -> Vec<String> {
         let one_contact = study.system().contacts.len() == 1;
         let of =
             |name: &str| if one_contact { String::new() } else { format!(" of contact {name}") };
@@ -295,12 +341,18 @@ impl MeasuredResponse {
             let loss = self.friction_loss(index).ok()?;
             let of = of(&contact.name);
             if loss.abs() < UNCHANGED {
-                return Some(format!("the mean friction{of} is that of steady sliding"));
+                return Some(format!("The mean friction{of} is that of steady sliding."));
             }
             let side = if loss < 0.0 { "above" } else { "below" };
             let share = percent(loss.abs());
-            Some(format!("the mean friction{of} is {share} {side} that of steady sliding"))
+            Some(format!("The mean friction{of} is {share} {side} that of steady sliding."))
         });
+        losses.collect()
+    }
+
+    /// The cost of every dither, one sentence each.
+    fn costs(&self, study: &SystemStudy) -> Vec<String> {
+        let units = study.units();
         let several = self.response.dithered.inputs.len() > 1;
         let inputs = self.response.dithered.inputs.iter().enumerate();
         let costs = inputs.filter_map(|(index, cost)| {
@@ -310,7 +362,7 @@ impl MeasuredResponse {
             let stroke = in_units(units, Quantity::Displacement, stroke);
             let of = if several { format!(" at dither[{index}]") } else { String::new() };
             Some(format!(
-                "the dither {does} the mean power {power} with a stroke of {stroke}{of}{}",
+                "The dither {does} the mean power {power} with a stroke of {stroke}{of}{}.",
                 in_series.and_then(Result::ok).map_or(String::new(), |cost| format!(
                     ", or in series with the spring of the contact {} with a stroke of {}",
                     in_units(units, Quantity::Power, cost.power),
@@ -318,8 +370,7 @@ impl MeasuredResponse {
                 ))
             ))
         });
-        let parts: Vec<String> = losses.chain(costs).collect();
-        (!parts.is_empty()).then(|| format!("{}.", capital(&listed(&parts))))
+        costs.collect()
     }
 
     /// A mean power; of a motion that does not repeat itself with two digits, of which another record leaves one: 69 mW of a pad of two masses

@@ -1,5 +1,7 @@
 //! `modes` of a system: frequencies, damping and shapes with the springs of the contacts and without friction.
 
+use std::f64::consts::TAU;
+
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::rigid::rigid_once;
 use quell_linear::spectrum::{SmallMotion, spectrum};
@@ -12,7 +14,8 @@ use super::{failed, has_equations};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::study::SystemStudy;
+use crate::study::{SystemStudy, UnitSystem};
+use crate::words::{counted, digits};
 
 /// Natural motions of a system without friction, the lowest first.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,10 +55,50 @@ pub fn natural(motion: &SmallMotion) -> f64 {
 }
 
 impl SystemModes {
+    /// The lowest and the highest natural frequency.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let (noun, factor, unit) = match study.units() {
+            UnitSystem::None => ("natural angular frequency", 1.0, ""),
+            _ => ("natural frequency", 1.0 / TAU, " Hz"),
+        };
+        let words = |motion: &SmallMotion| digits(factor * natural(motion)) + unit;
+        let mut oscillating =
+            self.modes.iter().filter(|motion| motion.eigenvalue.im > motion.error);
+        let Some(lowest) = oscillating.next() else {
+            return "No motion of this structure oscillates.".to_owned();
+        };
+        let damping = digits(lowest.damping_ratio());
+        let of_lowest = format!("{}, with the damping ratio {damping}", words(lowest));
+        match oscillating.next_back().map(words) {
+            None => format!("The {noun} is {of_lowest}."),
+            Some(highest) => format!("The lowest {noun} is {of_lowest}; the highest is {highest}."),
+        }
+    }
+
+    /// How many motions oscillate, and how many do not.
+    pub fn notes(&self) -> Vec<String> {
+        let count =
+            |of: fn(&SmallMotion) -> bool| self.modes.iter().filter(|mode| of(mode)).count();
+        let oscillating = count(|mode| mode.eigenvalue.im > mode.error);
+        let others = self.modes.len() - oscillating;
+        let many = (oscillating > 1).then(|| format!("{oscillating} motions oscillate."));
+        let rest = (others > 0).then(|| {
+            format!(
+                "{} neither oscillate{} nor have a natural frequency.",
+                counted(others, "motion"),
+                if others == 1 { "s" } else { "" }
+            )
+        });
+        many.into_iter().chain(rest).collect()
+    }
+
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let mut fields = Fields::in_units(study.units());
-        fields.plain("ok", true).plain("coordinates", study.system().structure.names());
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("coordinates", study.system().structure.names());
         let modes = self.modes.iter().map(|motion| {
             let mut inner = Fields::in_units(study.units());
             let shape: Vec<f64> = motion.shape.iter().map(|z| z.re).collect();

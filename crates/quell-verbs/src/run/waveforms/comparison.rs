@@ -205,15 +205,11 @@ impl WaveformComparison {
                 "{of} an exact amplitude that stabilises steady sliding, {} has the least, {value}.",
                 named(best)
             ),
-            (RankedBy::Averaging, ..) => {
-                let why = best.exact.as_ref().err().map_or(String::new(), ToString::to_string);
-                format!(
-                    "No waveform has an exact amplitude that stabilises steady sliding ({}: {why}). By averaging alone {} has the least \
-                     amplitude, {value}.",
-                    best.label(),
-                    named(best)
-                )
-            }
+            // Why is said of every waveform in the table.
+            (RankedBy::Averaging, ..) => format!(
+                "By averaging alone {} has the least amplitude, {value}: no waveform has an exact one that stabilises steady sliding.",
+                named(best)
+            ),
         };
         text += &self.least_power(power);
         text

@@ -1,13 +1,11 @@
 //! `stability --exact` of a system.
 
-use std::fmt::Write as _;
-
 use serde_json::Value as Json;
 
 use crate::outcome::Presented;
-use crate::outcome::table::figure;
+use crate::outcome::table::{NumberColumns, figure, frequency_heading, rate_heading};
 use crate::run::system::exact::ExactStability;
-use crate::study::{SystemSetup, SystemStudy, UnitSystem};
+use crate::study::{SystemSetup, SystemStudy};
 
 impl Presented<SystemSetup> for ExactStability {
     const NAME: &'static str = "exact-stability";
@@ -22,20 +20,14 @@ impl Presented<SystemSetup> for ExactStability {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        let (factor, rate, frequency) = match study.units() {
-            UnitSystem::None => (1.0, "growth rate", "frequency"),
-            _ => (1.0 / std::f64::consts::TAU, "rate/(1/s)", "frequency/Hz"),
-        };
-        let mut text = format!("  {rate:>14}  {:>14}  {frequency:>14}\n", "error at most");
+        let (frequency, factor) = frequency_heading(study.units());
+        let rate = rate_heading(study.units());
+        let (columns, heading) = NumberColumns::under(&[rate.as_str(), "error at most", frequency]);
+        let mut lines = vec![heading];
         for found in self.orbit.exponents.iter().filter(|found| found.exponent.im >= 0.0) {
-            let _ = writeln!(
-                text,
-                "  {:>14}  {:>14}  {:>14}",
-                figure(found.exponent.re),
-                figure(found.error),
-                figure(factor * found.exponent.im)
-            );
+            let cells = [found.exponent.re, found.error, factor * found.exponent.im];
+            lines.push(columns.line(&cells.map(figure)));
         }
-        text
+        lines.join("\n") + "\n"
     }
 }

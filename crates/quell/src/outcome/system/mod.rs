@@ -12,7 +12,7 @@ use quell_linear::spectrum::SmallMotion;
 
 use quell_numerics::eigen::modulus;
 
-use super::table::figure;
+use super::table::{NumberColumns, figure, frequency_heading, rate_heading};
 use crate::study::UnitSystem;
 
 /// Motions that a table lists.
@@ -39,35 +39,27 @@ pub(super) fn motions<'a>(
     listed: ListedMotion,
     all: impl Iterator<Item = &'a SmallMotion>,
 ) -> String {
-    let hertz = units != UnitSystem::None;
     let all: Vec<&SmallMotion> = all.collect();
-    let heading = match (listed, hertz) {
-        (ListedMotion::Damped, false) => "frequency |Im λ|",
-        (ListedMotion::Natural, false) => "frequency |λ|",
-        (ListedMotion::Damped, true) => "|Im λ|/2π in Hz",
-        (ListedMotion::Natural, true) => "|λ|/2π in Hz",
+    let (frequency, factor) = frequency_heading(units);
+    let frequency = match listed {
+        ListedMotion::Damped => frequency.to_owned(),
+        ListedMotion::Natural => format!("natural {frequency}"),
     };
-    let mut text = format!("  {heading:>16}");
-    let rate = if hertz { "rate/(1/s)" } else { "growth rate" };
-    let _ = writeln!(text, "  {rate:>14}  {:>14}", "damping ratio");
+    let headings = [frequency, rate_heading(units), "damping ratio".to_owned()];
+    let (columns, mut text) = NumberColumns::under(&headings);
+    text.push('\n');
     for motion in all.iter().take(MOST_MOTIONS) {
         let frequency = match listed {
             ListedMotion::Damped => motion.frequency(),
             ListedMotion::Natural => modulus(motion.eigenvalue),
         };
-        let frequency = if hertz { frequency / std::f64::consts::TAU } else { frequency };
         let (rate, ratio) = if motion.eigenvalue.re.abs() <= motion.error {
             (0.0, 0.0)
         } else {
             (motion.eigenvalue.re, motion.damping_ratio())
         };
-        let _ = writeln!(
-            text,
-            "  {:>16}  {:>14}  {:>14}",
-            figure(frequency),
-            figure(rate),
-            figure(ratio)
-        );
+        text += &columns.line(&[frequency * factor, rate, ratio].map(figure));
+        text.push('\n');
     }
     if all.len() > MOST_MOTIONS {
         let _ = writeln!(text, "  … and {} more; --json lists all", all.len() - MOST_MOTIONS);

@@ -19,6 +19,14 @@ impl Presented<SystemSetup> for SystemModes {
         self.json(study)
     }
 
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn notes(&self, _: &SystemStudy) -> Vec<String> {
+        self.notes()
+    }
+
     fn table(&self, study: &SystemStudy) -> String {
         motions(study.units(), ListedMotion::Natural, self.modes.iter())
     }

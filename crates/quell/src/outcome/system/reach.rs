@@ -2,14 +2,12 @@
 
 use std::fmt::Write as _;
 
-use std::f64::consts::TAU;
-
 use serde_json::Value as Json;
 
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
-use crate::outcome::table::figure;
+use crate::outcome::table::{NumberColumns, figure, frequency_heading, heading};
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::system::reach::{Reaches, UNBOUNDED_RESONANCE};
@@ -29,15 +27,18 @@ impl Presented<SystemSetup> for Reaches {
 
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
-        let (factor, frequency, slip) = match study.units() {
-            UnitSystem::None => (1.0, "frequency", "slip/dither"),
-            UnitSystem::Si => (1.0 / TAU, "frequency/Hz", "slip/(m/s/N)"),
-            UnitSystem::MmTonneSecond => (1.0 / TAU, "frequency/Hz", "slip/(mm/s/N)"),
+        let (frequency, factor) = frequency_heading(study.units());
+        let unit = match study.units() {
+            UnitSystem::None => None,
+            UnitSystem::Si => Some("(m/s)/N"),
+            UnitSystem::MmTonneSecond => Some("(mm/s)/N"),
         };
+        let slip = heading("slip velocity per dither", unit);
+        let (columns, headings) = NumberColumns::under(&[frequency, slip.as_str()]);
         for pair in &self.pairs {
             let contact = &study.system().contacts[pair.contact].name;
             let _ = writeln!(text, "  contact {contact}, dither[{}]", pair.dither);
-            let _ = writeln!(text, "  {frequency:>14}  {slip:>14}");
+            let _ = writeln!(text, "{headings}");
             for at in &pair.extremes {
                 let kind = match (at.peak, at.out_of_reach) {
                     (true, _) => "resonance",
@@ -46,8 +47,10 @@ impl Presented<SystemSetup> for Reaches {
                 };
                 let frequency = figure(factor * at.frequency);
                 let _ = match at.slip_per_amplitude {
-                    Some(slip) => writeln!(text, "  {frequency:>14}  {:>14}  {kind}", figure(slip)),
-                    None => writeln!(text, "  {frequency:>14}  {UNBOUNDED_RESONANCE}"),
+                    Some(slip) => {
+                        writeln!(text, "{}  {kind}", columns.line(&[frequency, figure(slip)]))
+                    }
+                    None => writeln!(text, "{}  {UNBOUNDED_RESONANCE}", columns.line(&[frequency])),
                 };
             }
         }
