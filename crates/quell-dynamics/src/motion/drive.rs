@@ -72,7 +72,11 @@ mod tests {
     use quell_numerics::matrix::Matrix;
 
     use super::*;
-    use crate::motion::{MOTION_TOLERANCE, Motion, MotionRecorder, MotionStart, RecordedEvent};
+    use crate::motion::{
+        ContactPhase, MOTION_TOLERANCE, Motion, MotionObserver, MotionRecorder, MotionSegment,
+        MotionStart, RecordedEvent,
+    };
+    use crate::simulation::ORDER;
 
     fn wave(waveform: Waveform, amplitude: f64, frequency: f64) -> Wave {
         Wave { waveform, amplitude, frequency, phase: 0.3, envelope: None }
@@ -134,6 +138,50 @@ mod tests {
                 force(0, wave(Waveform::Sine, 0.35, 10.0)),
                 force(coordinates - 1, wave(Waveform::Triangle, 0.1, 7.0)),
             ],
+        }
+    }
+
+    /// Keeps every series that observers read of a step.
+    #[derive(Default)]
+    struct SeriesRecorder(Vec<[f64; ORDER + 1]>);
+
+    impl MotionObserver for SeriesRecorder {
+        fn segment(&mut self, segment: &MotionSegment<'_>) {
+            let states = segment.states();
+            let size = states.len() / (ORDER + 1);
+            self.0.extend((0..size).map(|i| std::array::from_fn(|k| states[k * size + i])));
+            self.0.extend((0..).map_while(|push| segment.force(push)));
+            for number in 0..segment.now.len() {
+                let contact = segment.contact(number);
+                let (load, pressed) = (contact.load, contact.pressed);
+                self.0.extend([contact.slip, contact.friction, contact.surface, load, pressed]);
+                // The law's variable is that of a contact that slips.
+                if matches!(segment.phase(number), ContactPhase::Slip(_)) {
+                    self.0.push(contact.scaled);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn observers_read_the_same_series_of_both_loops() {
+        for (coordinates, contacts) in [(1, 2), (2, 2), (3, 2), (4, 4)] {
+            let system = chain(coordinates, contacts, LawKind::Stribeck);
+            let motion = Motion::new(&system).expect("a system that moves");
+            let series = |all: fn(&mut MotionRun<'_>) -> MotionProgress| {
+                let start = MotionStart { time: 0.0, state: vec![0.0; motion.size()] };
+                let mut recorder = SeriesRecorder::default();
+                let system = (motion.system, motion.equations().expect("equations"));
+                let mut run = MotionRun::new(system, &start, 20.0, MOTION_TOLERANCE, &mut recorder);
+                run.open().expect("a start");
+                all(&mut run).expect("a motion to the end");
+                recorder.0
+            };
+            let (one, other) = (series(run_to_end), series(step_by_step));
+            assert!(
+                one.len() > 1000 && one == other,
+                "{coordinates} coordinates, {contacts} contacts"
+            );
         }
     }
 

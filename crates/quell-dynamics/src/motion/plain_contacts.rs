@@ -229,6 +229,7 @@ impl<V: Lane> PlainSeries<V> {
             let Some(contact) = run.series.contacts.get_mut(place) else { break };
             for k in 0..=ORDER {
                 contact.slip[k] = self.slip[k].lane(place);
+                contact.scaled[k] = self.scaled[k].lane(place);
                 contact.friction[k] = self.friction[k].lane(place);
             }
             if !run.forcings.contacts[place].surface.is_constant() {
