@@ -433,7 +433,7 @@ fn thresholds_accept_si_units() {
         "--to",
         "6500",
     ]);
-    assert!(printed.contains("\ndither.amplitude_n from 5000 N to 6500 N,"), "{printed}");
+    assert!(printed.contains("\nDither amplitude from 5000 N to 6500 N,"), "{printed}");
     let newtons = format!("{:.3} N", number(&local["value"]));
     assert!(printed.contains(&newtons), "{newtons}: {printed}");
     for (name, unit) in [("value", "N"), ("from", "N"), ("displacement", "m")] {

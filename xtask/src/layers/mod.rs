@@ -134,6 +134,7 @@ mod tests {
     fn planted_confined_dependencies_are_reported() {
         for (name, package) in [
             ("quell-dynamics", "rayon"),
+            ("quell-maps", "rayon"),
             ("quell-model", "toml"),
             ("quell-dynamics", "zarrs"),
             ("quell-cli", "resvg"),
@@ -148,7 +149,6 @@ mod tests {
         }
         for (name, package) in [
             ("quell-verbs", "rayon"),
-            ("quell-maps", "rayon"),
             ("quell-cli", "clap"),
             ("quell-cli", "serde_json"),
             ("xtask", "toml"),
