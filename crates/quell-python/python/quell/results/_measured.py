@@ -40,6 +40,9 @@ class _Estimates(Result):
     """The file."""
     columns: list[str]
     """Its columns."""
+    read: FrozenDict[Any]
+    """How the file was read: ``separator``, ``decimal``, ``units`` of the columns, counts of ``comment_lines`` and ``header_lines``, and the
+    lines that were left out."""
 
 
 class _OfRecord(_Estimates):
@@ -97,6 +100,8 @@ class LawFit(_ComparedLaws):
     """Whether the points have standard deviations."""
     sign: str
     """How the signs of slip and friction were read."""
+    friction_is: str
+    """What friction is: "coefficient", or without a load "force" or "torque"."""
     at_rest: list[int]
     """Lines of the file without slip, which are left out."""
     not_determinable: list[str]
