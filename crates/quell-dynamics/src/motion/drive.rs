@@ -65,7 +65,7 @@ impl LaneWork for PlainRun<'_, '_> {
 
 #[cfg(test)]
 mod tests {
-    use quell_model::friction::Friction;
+    use quell_model::friction::{Expression, Friction, Surroundings};
     use quell_model::profile::{Profile, Wave};
     use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
     use quell_model::{LawKind, System, Waveform};
@@ -84,6 +84,13 @@ mod tests {
 
     fn law(kind: LawKind, contact: usize) -> Friction {
         let level = 0.4 - 0.03 * contact as f64;
+        if kind == LawKind::Expression {
+            let constants = [("a".to_owned(), 0.3 * level), ("b".to_owned(), 0.1)];
+            let text = "0.2 + a*exp(-(v/b)^2) + 0.02*tanh(abs(v))/(1 + abs(v))";
+            let law = Expression::new(text, &constants, Some(level), 1.0).expect(text);
+            let around = Surroundings { normal_load: 1.0, slip: 1.0 };
+            return Friction::Expression(law).placed(&around).expect(text);
+        }
         let values = match kind {
             LawKind::Coulomb => vec![0.7 * level, level, 0.02],
             LawKind::StribeckExponential => vec![0.7 * level, level, 0.1, 1.0, 0.02],
@@ -206,6 +213,7 @@ mod tests {
             LawKind::Coulomb,
             LawKind::StribeckExponential,
             LawKind::Decreasing,
+            LawKind::Expression,
         ];
         let mut events = 0;
         for (coordinates, contacts) in [(1, 2), (2, 1), (2, 2), (3, 2), (3, 4), (4, 4)] {

@@ -40,7 +40,7 @@ pub(super) struct PlainPhases<V> {
     pub(super) slips: [bool; MOST],
     pub(super) any_slips: bool,
     pub(super) any_sticks: bool,
-    /// 1 where the contact slips, sticks, or either.
+    /// 1 where the contact slips, and where it sticks.
     pub(super) slipping: V,
     pub(super) sticking: V,
     /// ±1; 1 in stick.
