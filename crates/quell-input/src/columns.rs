@@ -20,7 +20,7 @@ use crate::wrong_file::WrongTable;
 /// The option.
 const OPTION: &str = "--columns";
 
-/// Standard acceleration of gravity, m/s².
+/// Standard acceleration of gravity, m/s² (CGPM 1901).
 const GRAVITY: f64 = 9.806_65;
 
 /// A quantity that a column may have.

@@ -18,10 +18,10 @@ const BEGIN: &[u8] = b"MATLAB 5.0 MAT-file";
 /// Length of the header.
 const HEADER: usize = 128;
 
-/// The most bytes of all expanded elements.
+/// The most bytes of all expanded elements: eight times the largest file, so that a small one cannot fill the memory.
 const MOST_BYTES: usize = 128 << 20;
 
-/// The most columns of a matrix that are read.
+/// The most columns of a matrix that are read: more are an image or a field, and it is listed instead.
 const MOST_COLUMNS: usize = 64;
 
 /// Types of elements.

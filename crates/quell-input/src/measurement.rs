@@ -28,10 +28,12 @@ const WHAT: &str = "a file of measured friction";
 /// The most points: the search computes the curve at each of them some thousand times.
 pub const MOST_POINTS: usize = 100_000;
 
-/// The most files of a folder.
+/// The most files of a folder: with more, a folder of something else is the likelier reason.
 const MOST_FILES: usize = 1000;
 
-/// The speed of a record is steady if its standard deviation is at most this share of its mean. Stick and slip in one direction has a mean.
+/// The speed of a record is steady if its standard deviation is at most this share of its mean. Chosen here: control of speed and the rounding
+/// of an encoder stay well below it, and stick-slip well above. It changes no number: a record beyond it is a point with a warning if it
+/// slips in one direction, and is left out by name if it slips in both.
 const STEADY: f64 = 0.25;
 
 const VELOCITY: WantedColumn = WantedColumn { names: &["slip_velocity"], units: &["m/s", "rad/s"] };
@@ -71,6 +73,8 @@ pub enum WrongFriction {
     TooManyPoints(usize),
     /// There are no points.
     NoPoints,
+    /// A folder cannot be read, in words of the system.
+    UnreadFolder(String),
     /// A folder has more files than are read.
     TooManyFiles(usize),
     /// A folder has no record at steady speed.
@@ -130,6 +134,9 @@ impl fmt::Display for WrongFriction {
                 "it has {count} points, and at most {MOST_POINTS} are fitted: average neighbouring points first"
             ),
             Self::NoPoints => write!(f, "{WHAT}; it has no points"),
+            Self::UnreadFolder(why) => {
+                write!(f, "a folder of measured friction; it cannot be read: {why}")
+            }
             Self::TooManyFiles(count) => {
                 write!(
                     f,
@@ -218,9 +225,42 @@ pub struct SteadyFile {
 pub struct LeftOutFile {
     /// The file.
     pub path: PathBuf,
-    /// Why, in words.
-    pub why: String,
+    /// Why.
+    pub why: NoPoint,
 }
+
+/// Why a record is no point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoPoint {
+    /// It has no readings.
+    Empty,
+    /// Its speed is not steady, and it slips in both directions.
+    BothDirections {
+        /// Mean slip velocity.
+        mean: f64,
+        /// Its standard deviation.
+        deviation: f64,
+        /// Unit of both, if the file gives one.
+        unit: Option<&'static str>,
+    },
+}
+
+impl fmt::Display for NoPoint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => f.write_str("it has no readings"),
+            Self::BothDirections { mean, deviation, unit } => {
+                let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+                write!(
+                    f,
+                    "it slips in both directions: mean {mean:.4}{unit}, standard deviation {deviation:.4}{unit}"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoPoint {}
 
 /// The files of a folder.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -294,7 +334,7 @@ impl FrictionData {
     /// Each record at steady speed is the point of its means.
     fn of_folder(path: &Path, choice: &ColumnChoice) -> Result<Self, Failure> {
         let wrong = |why: WrongFriction| Failure::from(complaint(path, why));
-        let files = files_of(path).map_err(|why| Failure::from(complaint(path, why)))?;
+        let files = files_of(path).map_err(wrong)?;
         if files.len() > MOST_FILES {
             return Err(wrong(WrongFriction::TooManyFiles(files.len())));
         }
@@ -339,10 +379,10 @@ impl FrictionData {
     }
 
     /// The means of a record and whether its speed is steady, or why it is no point.
-    fn mean(&self, place: usize) -> Result<(MeasuredPoint, bool), String> {
+    fn mean(&self, place: usize) -> Result<(MeasuredPoint, bool), NoPoint> {
         let count = self.points.len() as f64;
         if self.points.is_empty() {
-            return Err("it has no readings".to_owned());
+            return Err(NoPoint::Empty);
         }
         let mean = |of: fn(&MeasuredPoint) -> f64| self.points.iter().map(of).sum::<f64>() / count;
         let slip_velocity = mean(|point| point.slip_velocity);
@@ -351,10 +391,8 @@ impl FrictionData {
         let is_steady = deviation <= STEADY * slip_velocity.abs();
         let slips = |sign: f64| self.points.iter().any(|point| sign * point.slip_velocity > 0.0);
         if !is_steady && slips(1.0) && slips(-1.0) {
-            let unit = self.velocity_unit.map_or(String::new(), |unit| format!(" {unit}"));
-            return Err(format!(
-                "it slips in both directions: mean {slip_velocity:.4}{unit}, standard deviation {deviation:.4}{unit}"
-            ));
+            let (mean, unit) = (slip_velocity, self.velocity_unit);
+            return Err(NoPoint::BothDirections { mean, deviation, unit });
         }
         let coefficient = mean(|point| point.coefficient);
         let point =
@@ -421,9 +459,8 @@ pub fn inputs(path: &Path) -> Inputs {
 }
 
 /// The files of a folder by name, without those that are hidden.
-fn files_of(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let unread =
-        |why: std::io::Error| format!("a folder of measured friction; it cannot be read: {why}");
+fn files_of(folder: &Path) -> Result<Vec<PathBuf>, WrongFriction> {
+    let unread = |why: std::io::Error| WrongFriction::UnreadFolder(why.to_string());
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(unread)? {
         let entry = entry.map_err(unread)?;
@@ -739,7 +776,10 @@ mod tests {
             files.taken.iter().map(|file| file.is_steady).collect::<Vec<_>>(),
             [true, true, false]
         );
-        assert!(files.left_out[0].why.starts_with("it slips in both directions"), "{files:?}");
+        assert!(
+            files.left_out[0].why.to_string().starts_with("it slips in both directions"),
+            "{files:?}"
+        );
         assert!(data.inputs().at(&folder.path().join("b.csv")).is_some());
         fs::write(folder.path().join("z.csv"), "slip_velocity,coefficient\n1,2\n")
             .expect("written");

@@ -258,10 +258,9 @@ fn files(folder: &SteadyFiles) -> Json {
             "steady": file.is_steady,
         })
     });
-    let left_out = folder
-        .left_out
-        .iter()
-        .map(|file| json!({ "file": file.path.display().to_string(), "left_out": file.why }));
+    let left_out = folder.left_out.iter().map(
+        |file| json!({ "file": file.path.display().to_string(), "left_out": file.why.to_string() }),
+    );
     taken.chain(left_out).collect()
 }
 
