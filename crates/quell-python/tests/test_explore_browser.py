@@ -56,6 +56,11 @@ WATCH = """() => {
 """Records the words and the opacity of the exact verdict."""
 
 
+def shown(answer: Any) -> str:
+    """What the page shows of an answer in a line: its sentence and its notes, between which are only line breaks."""
+    return "".join([answer.sentence, *answer.notes])
+
+
 class Page:
     """A page of the explorer."""
 
@@ -147,7 +152,7 @@ def belt_page(browser: Any) -> Iterator[Page]:
 def test_the_page_shows_every_answer_and_fetches_nothing_from_elsewhere(belt_page: Page) -> None:
     study = belt_page.explorer.study
     assert belt_page.words("quell-averaged").startswith(study.stability().sentence)
-    assert belt_page.words("quell-exact") == study.response().sentence
+    assert belt_page.words("quell-exact") == shown(study.response())
     base = belt_page.explorer.url.split("/", 3)[:3]
     allowed = ("/".join(base), "ws" + "/".join(base)[4:], "data:", "blob:")
     assert all(it.startswith(allowed) for it in belt_page.requests), belt_page.requests
@@ -161,7 +166,7 @@ def test_a_slider_changes_the_answers(belt_page: Page) -> None:
     belt_page.until(lambda: belt_page.explorer.study.settings["belt.belt_velocity"] > 0.05)
     study = belt_page.explorer.study
     belt_page.wait("quell-averaged", lambda it: it.startswith(study.stability().sentence))
-    belt_page.wait("quell-exact", lambda it: it == study.response().sentence)
+    belt_page.wait("quell-exact", lambda it: it == shown(study.response()))
 
 
 def test_an_invalid_number_is_refused_in_words_and_undo_works(belt_page: Page) -> None:
@@ -216,7 +221,7 @@ def test_the_study_is_downloaded(belt_page: Page) -> None:
 
 def test_what_is_stale_is_dimmed_at_once_and_gives_way(belt_page: Page) -> None:
     belt_page.settled()
-    belt_page.wait("quell-exact", lambda it: it == belt_page.explorer.study.response().sentence)
+    belt_page.wait("quell-exact", lambda it: it == shown(belt_page.explorer.study.response()))
     old = belt_page.words("quell-exact")
     # Under noise the exact response takes seconds: nothing of the sine stays above it.
     belt_page.page.evaluate(WATCH)
@@ -228,7 +233,7 @@ def test_what_is_stale_is_dimmed_at_once_and_gives_way(belt_page: Page) -> None:
     assert not bright or bright[-1][2] - seen[0][2] < 400.0, bright
     belt_page.wait("quell-exact", lambda it: "runs" in it)
     study = belt_page.explorer.study
-    assert study.settings["dither.waveform"] == "noise" and belt_page.words("quell-exact") == study.response().sentence
+    assert study.settings["dither.waveform"] == "noise" and belt_page.words("quell-exact") == shown(study.response())
     belt_page.wait("quell-spectrum-status", lambda it: "exact" in it and " s" in it)
     assert "KeyError" not in belt_page.words("quell-spectrum-status")
     belt_page.until(lambda: float(belt_page.opacity("quell-exact")) == 1.0)
