@@ -65,9 +65,9 @@ pub fn spectrum(
     let matrix = linear.state_matrix_with(friction);
     let decomposition = Decomposition::new(&matrix)?;
     let growth = growth_of(&decomposition)?;
-    let mut motions: Vec<SmallMotion> = (0..decomposition.values().len())
-        .map(|index| {
-            let pair = decomposition.pair(index);
+    let mut motions: Vec<SmallMotion> = decomposition
+        .pairs()
+        .map(|pair| {
             let error = decomposition.error_of(&pair);
             let n = linear.coordinates();
             let friction_shares = match linear.matrices() {

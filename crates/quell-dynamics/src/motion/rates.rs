@@ -55,12 +55,11 @@ pub(super) fn adhering(matrix: &Matrix, contacts: &[ContactEquation]) -> Matrix 
 
 /// The state matrix with the springs and dampers that press the contacts.
 fn with_normal_springs(mut closed: Matrix, contacts: &[ContactEquation]) -> Matrix {
-    let size = closed.rows();
     for contact in contacts {
-        let (across, approach) = (contact.across.dense(size), contact.approach.dense(size));
-        for i in 0..size {
-            for j in 0..size {
-                closed[(i, j)] -= across[i] * approach[j];
+        for (i, across) in contact.across.pairs() {
+            let row = closed.row_mut(i);
+            for (j, approach) in contact.approach.pairs() {
+                row[j] -= across * approach;
             }
         }
     }

@@ -85,8 +85,17 @@ impl RowEntries {
 
     /// The product of a row and a column.
     pub(super) fn product(&self, column: &Self) -> f64 {
-        let other = |place| column.pairs().find(|(at, _)| *at == place).map_or(0.0, |(_, v)| v);
-        self.pairs().map(|(place, value)| value * other(place)).sum()
+        self.pairs().map(|(place, value)| value * column.entry(place)).sum()
+    }
+
+    /// The number at a place.
+    fn entry(&self, place: usize) -> f64 {
+        if self.scattered.is_empty() {
+            let inside = place.checked_sub(self.start).and_then(|inside| self.values.get(inside));
+            return inside.copied().unwrap_or(0.0);
+        }
+        let found = self.scattered.binary_search_by_key(&place, |(at, _)| *at);
+        found.map_or(0.0, |found| self.scattered[found].1)
     }
 
     /// All numbers, `size` of them.

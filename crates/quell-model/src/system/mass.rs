@@ -40,6 +40,15 @@ impl MassMatrix {
         self.size
     }
 
+    /// The entries of its diagonal.
+    pub fn diagonal(&self) -> Vec<f64> {
+        let entry = |i: usize| {
+            let base = self.base.as_ref().map_or(1.0, |base| base[(i, i)]);
+            self.attached.iter().fold(base, |sum, (mass, row)| (mass * row[i]).mul_add(row[i], sum))
+        };
+        (0..self.size).map(entry).collect()
+    }
+
     /// M, all entries.
     pub fn matrix(&self) -> Matrix {
         let mut matrix = self.base.clone().unwrap_or_else(|| Matrix::identity(self.size));

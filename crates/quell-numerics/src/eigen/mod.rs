@@ -173,10 +173,32 @@ impl Decomposition {
         self.pair_from(index, 0)
     }
 
+    /// Every eigenvalue with its vectors, in their order; of two conjugate ones the second has the conjugate vectors, to the bit those of
+    /// [`Decomposition::pair`].
+    pub fn pairs(&self) -> impl Iterator<Item = EigenPair> {
+        let mut room = Shifted::room(self.n, self.stride);
+        let mut before: Option<EigenPair> = None;
+        self.values.iter().map(move |value| {
+            let conjugate =
+                before.take().filter(|known| value.im != 0.0 && known.value == value.conj());
+            let pair = match conjugate {
+                Some(known) => known.conjugate(),
+                None => self.pair_in(&mut room, *value, 0),
+            };
+            before = Some(pair.clone());
+            pair
+        })
+    }
+
     /// As [`Decomposition::pair`] with another starting vector, which gives another vector for a multiple eigenvalue.
     pub(crate) fn pair_from(&self, index: usize, variant: usize) -> EigenPair {
-        let value = self.values[index];
-        let (right, left) = with_fused_multiply_add(Vectors { of: self, value, variant });
+        let mut room = Shifted::room(self.n, self.stride);
+        self.pair_in(&mut room, self.values[index], variant)
+    }
+
+    /// The same with room for the factors.
+    fn pair_in(&self, room: &mut Shifted, value: Complex64, variant: usize) -> EigenPair {
+        let (right, left) = with_fused_multiply_add(Vectors { of: self, room, value, variant });
         let product = product_without_conjugation(&right, &left);
         let size = modulus(product);
         let condition = if size > 0.0 { 1.0 / size } else { f64::INFINITY };
@@ -217,8 +239,22 @@ impl Decomposition {
     }
 }
 
+impl EigenPair {
+    /// That of the conjugate eigenvalue of a real matrix.
+    fn conjugate(&self) -> Self {
+        let conjugate = |vector: &[Complex64]| vector.iter().map(Complex64::conj).collect();
+        Self {
+            value: self.value.conj(),
+            right: conjugate(&self.right),
+            left: conjugate(&self.left),
+            condition: self.condition,
+        }
+    }
+}
+
 struct Vectors<'a> {
     of: &'a Decomposition,
+    room: &'a mut Shifted,
     value: Complex64,
     variant: usize,
 }
@@ -228,7 +264,9 @@ impl Work for Vectors<'_> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        self.of.shifted(self.value).vectors(self.variant)
+        let Self { of, room, value, variant } = self;
+        room.factor(&of.hessenberg, of.norm, value);
+        room.vectors(variant)
     }
 }
 

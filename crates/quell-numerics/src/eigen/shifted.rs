@@ -88,27 +88,47 @@ fn subtract(a_re: &mut [f64], a_im: &mut [f64], m: Complex64, b_re: &[f64], b_im
 }
 
 impl Shifted {
+    /// Room for the factors of matrices of `n` rows of length `stride`.
+    pub(crate) fn room(n: usize, stride: usize) -> Self {
+        let none = Complex64::new(0.0, 0.0);
+        Self {
+            n,
+            stride,
+            upper: Split::zeros(n * stride),
+            inverse_pivots: vec![none; n],
+            multipliers: vec![none; n],
+            swapped: vec![false; n],
+        }
+    }
+
     /// Factors H − σ; `h` is stored in rows of length `stride` and zero below the subdiagonal, `norm` is its norm.
     #[inline(always)]
     pub(crate) fn new(h: &[f64], n: usize, stride: usize, norm: f64, shift: Complex64) -> Self {
-        let mut upper = Split { re: h.to_vec(), im: vec![0.0; h.len()] };
+        let mut factors = Self::room(n, stride);
+        factors.factor(h, norm, shift);
+        factors
+    }
+
+    /// Factors another H − σ of the same size in the same room.
+    #[inline(always)]
+    pub(crate) fn factor(&mut self, h: &[f64], norm: f64, shift: Complex64) {
+        let (n, stride) = (self.n, self.stride);
         for i in 0..n {
-            upper.re[i * stride + i] -= shift.re;
-            upper.im[i * stride + i] = -shift.im;
+            // What is left of the first group with entries is never read.
+            let row = i * stride + i.saturating_sub(1) / LANES * LANES..(i + 1) * stride;
+            self.upper.re[row.clone()].copy_from_slice(&h[row.clone()]);
+            self.upper.im[row].fill(0.0);
         }
-        let mut factors = Self {
-            n,
-            stride,
-            upper,
-            inverse_pivots: vec![Complex64::new(0.0, 0.0); n],
-            multipliers: vec![Complex64::new(0.0, 0.0); n],
-            swapped: vec![false; n],
-        };
+        self.multipliers.fill(Complex64::new(0.0, 0.0));
+        self.swapped.fill(false);
+        for i in 0..n {
+            self.upper.re[i * stride + i] -= shift.re;
+            self.upper.im[i * stride + i] = -shift.im;
+        }
         let tiny = f64::EPSILON * if norm == 0.0 { 1.0 } else { norm };
         for k in 0..n {
-            factors.eliminate(k, tiny);
+            self.eliminate(k, tiny);
         }
-        factors
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use quell_model::System;
 use quell_model::digits::digits;
-use quell_model::system::Mechanical;
+use quell_model::system::{MassMatrix, Mechanical};
 use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
 
@@ -124,9 +124,10 @@ fn of_magnitudes(system: &System, units: UnitSystem, length: f64) -> Vec<String>
 /// mass at the contact that is a thousand times too small or too large; natural frequencies do not show that.
 fn of_modes(system: &System, mechanical: &Mechanical, units: UnitSystem) -> Vec<String> {
     let kilograms = units.si_per_unit(Quantity::LoadMass).unwrap_or(1.0);
-    let mass = mechanical.mass().matrix();
-    let highest = (0..mass.rows())
-        .map(|i| (mechanical.stiffness()[(i, i)] / mass[(i, i)]).max(0.0).sqrt())
+    let mass = mechanical.mass();
+    let diagonal = mass.diagonal();
+    let highest = (0..mass.size())
+        .map(|i| (mechanical.stiffness()[(i, i)] / diagonal[i]).max(0.0).sqrt())
         .fold(0.0, f64::max);
     let question = format!(
         "check whether the shapes are normalised to unit mass in {}{}: between kg and t they differ by the factor 31.6",
@@ -136,11 +137,11 @@ fn of_modes(system: &System, mechanical: &Mechanical, units: UnitSystem) -> Vec<
     let mut warnings = Vec::new();
     for contact in &system.contacts {
         let rows = [contact.tangent.as_deref(), contact.normal.as_deref()];
-        let masses = rows.into_iter().flatten().filter_map(|row| mass_along(&mass, row));
+        let masses = rows.into_iter().flatten().filter_map(|row| mass_along(mass, row));
         let Some(own) = masses.reduce(f64::min) else { continue };
         let in_kilograms = own * kilograms;
         let weights = contact.normal_load / (GRAVITY * in_kilograms);
-        let spring = contact.normal.as_deref().and_then(|row| mass_along(&mass, row));
+        let spring = contact.normal.as_deref().and_then(|row| mass_along(mass, row));
         let spring = spring.map(|own| (contact.normal_stiffness / own).sqrt() / highest);
         let name = &contact.name;
         if !(MASSES_OF_MODES.0..=MASSES_OF_MODES.1).contains(&in_kilograms) {
@@ -165,7 +166,7 @@ fn of_modes(system: &System, mechanical: &Mechanical, units: UnitSystem) -> Vec<
 }
 
 /// The mass that resists a force along a row, 1/(rᵀM⁻¹r); `None` where the row is zero or the mass singular.
-fn mass_along(mass: &Matrix, row: &[f64]) -> Option<f64> {
+fn mass_along(mass: &MassMatrix, row: &[f64]) -> Option<f64> {
     let force = Matrix::from_fn(row.len(), 1, |i, _| row[i]);
     let moved = mass.solve(&force)?;
     let inverse: f64 = row.iter().enumerate().map(|(i, entry)| entry * moved[(i, 0)]).sum();
@@ -194,11 +195,18 @@ pub(super) fn half_symmetric(system: &System) -> Vec<String> {
     found.chain(lost).collect()
 }
 
+/// Share of the stiffness of its coordinates below which an entry is no spring between them: the damping of a disc that turns gives such
+/// entries of opposite signs.
+const COUPLES: f64 = 1e-4;
+
 /// The first entry of a stiffness whose mirror image is its negative.
 fn lost_sign(matrix: &Matrix) -> Option<(usize, usize)> {
     let n = matrix.rows();
     let mut pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-    pairs.find(|&(i, j)| matrix[(i, j)] != 0.0 && matrix[(i, j)] == -matrix[(j, i)])
+    let couples = |(i, j): (usize, usize)| {
+        matrix[(i, j)].powi(2) > COUPLES * COUPLES * (matrix[(i, i)] * matrix[(j, j)]).abs()
+    };
+    pairs.find(|&(i, j)| couples((i, j)) && matrix[(i, j)] == -matrix[(j, i)])
 }
 
 /// The first entry that is not zero while its mirror image is.
