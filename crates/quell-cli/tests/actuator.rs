@@ -280,3 +280,61 @@ fn wrong_actuators_are_complained_about_with_the_key() {
     let (said, _) = place.json(&["design", "belt.toml"]);
     assert!(said.to_string().contains("outside [actuator]"), "{said}");
 }
+
+/// A stack of 350 N/µm behind a contact of 200 N/µm: 75 V rms are 742.5 N of the blocked force, of which the contact feels 1/2.75.
+#[test]
+fn normal_dither_acts_through_the_stiffness_of_the_contact() {
+    let volts = |text: &str, contact: &str| {
+        let text = text
+            .replace("direction = \"tangential\"", "direction = \"normal\"")
+            .replace("at = { pad = 1 }", "contact = \"contact 1\"\ndirection = \"normal\"")
+            .replace("amplitude_n = 1000", "amplitude_v_rms = 75")
+            .replace("amplitude = 1000", "amplitude_v_rms = 75")
+            .replace("normal_force_n = 1500", &format!("normal_force_n = 1500\n{contact}"))
+            .replace("normal_load = 1500", &format!("normal_load = 1500\n{contact}"));
+        text.split("[design]").next().expect("a study").to_owned()
+    };
+    let stack = PIEZO.replace("mass_kg = 0.05\n", "").replace("= 150", "= 1000");
+    let place = Place::with("actuator-normal", &[]);
+    let exact = 7.0 * 75.0 * SQRT_2 / (1.0 + 350.0 / 200.0);
+    for (name, text) in [("belt.toml", BELT), ("system.toml", SYSTEM)] {
+        let sprung = volts(text, "normal_stiffness_n_per_m = 200e6");
+        place.write(name, format!("{sprung}{stack}"));
+        let checked = place.good(&["check", name]);
+        close(checked["dithers"][0]["amplitude"].as_f64().expect("a number"), exact, name);
+        let response = place.good(&["response", name]);
+        let cost = &response["dithers"][0];
+        assert!(cost["power"].is_null() && cost["stroke"].is_null(), "{cost}");
+        let unit = if name == "belt.toml" { 1.0 } else { 1e3 };
+        close(number(cost, "actuator_stroke"), unit * 2.0 * exact / 200e6, name);
+        // The moving mass of the stack takes force too: k_a/k_n − m_a ω²/k_n.
+        place.write(name, format!("{sprung}{}", stack.replace("kind", "mass_kg = 0.05\nkind")));
+        let omega = TAU * 3000.0;
+        let heavier = 1.0 + (350e6 - 0.05 * omega * omega) / 200e6;
+        let checked = place.good(&["check", name]);
+        close(number(&checked["dithers"][0], "amplitude"), 7.0 * 75.0 * SQRT_2 / heavier, name);
+        for (text, words) in [
+            (format!("{}{stack}", volts(text, "")), "normal_stiffness"),
+            (format!("{sprung}{}", stack.replace("free_stroke_m = 20e-6\n", "")), "free_stroke"),
+            (format!("{}{stack}", sprung.replace("\"sine\"", "\"square\"")), "jumps"),
+        ] {
+            place.write(name, text);
+            let errors = place.refused(&["check", name]);
+            let allowed = errors[0]["allowed"].as_str().expect("text");
+            assert!(allowed.contains(words), "{name}: {allowed}");
+        }
+        // Without normal dither nothing presses through the contact.
+        let tangential = text.replace(
+            "normal_force_n = 1500",
+            "normal_force_n = 1500\nnormal_stiffness_n_per_m = 2e8",
+        );
+        let tangential = tangential
+            .replace("normal_load = 1500", "normal_load = 1500\nnormal_stiffness_n_per_m = 2e8");
+        place.write(name, tangential);
+        let errors = place.refused(&["check", name]);
+        assert!(
+            errors[0]["key"].as_str().expect("a key").contains("normal_stiffness"),
+            "{errors:?}"
+        );
+    }
+}

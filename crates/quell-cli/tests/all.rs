@@ -6,6 +6,7 @@ mod actuator;
 mod actuator_range;
 mod attractors;
 mod command_line;
+mod convert;
 mod disc;
 mod dither_sizes;
 mod doors;

@@ -177,7 +177,7 @@ impl fmt::Display for NotOfDisc {
                 "the dither of a disc varies its friction and moves nothing: it has no stroke, velocity or power"
             }
             Self::Actuator => {
-                "an actuator is not described for the dither of a disc, which varies its friction"
+                "an actuator gives normal dither of a disc in SI whose loads have a normal_load and a friction law"
             }
             Self::VaryingLoad => "tangential dither leaves the normal load as it is",
             Self::NormalLoad => "no load of the disc has a normal_load",

@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use num_complex::Complex64;
-use quell_dynamics::motion::{InputMeter, MOTION_TOLERANCE, Motion, MotionStart};
+use quell_dynamics::motion::{InputMeter, MOTION_TOLERANCE, Motion, MotionStart, NoPower};
+use quell_linear::driven_point::{DrivenPoint, NoDrivenPoint, PointOutput};
+use quell_linear::linearised::Linearised;
 use quell_linear::series_actuator::NoSeriesActuator;
 use quell_model::friction::{Coulomb, Friction};
 use quell_model::profile::{Profile, Wave};
@@ -57,7 +59,7 @@ fn costs(system: &System) -> quell_dynamics::motion::InputCost {
     let start = MotionStart { time: settled.time, state: settled.state };
     let mut meter = InputMeter::new(system);
     motion.run(&start, 200.0 * period, MOTION_TOLERANCE, &mut meter).expect("a run");
-    meter.costs().expect("a duration").swap_remove(0).expect("a cost")
+    meter.costs().expect("a duration").swap_remove(0)
 }
 
 #[test]
@@ -79,7 +81,8 @@ fn a_sine_in_closed_form() {
         assert!((series.power - exact).abs() < 1e-9 * exact.abs(), "{series:?} {exact}");
         assert!((series.stroke - 2.0 * elongation.norm()).abs() < 1e-12, "{series:?}");
         let exact = power(-load, moved);
-        assert!((found.power - exact).abs() < 1e-9 * exact.abs(), "{found:?} {exact}");
+        let fed = found.fed.expect("a motion");
+        assert!((fed.power - exact).abs() < 1e-9 * exact.abs(), "{fed:?} {exact}");
         // What the actuator delivers is lost in the dampers of the mass and of the contact.
         let lost = 0.5
             * FREQUENCY
@@ -87,6 +90,65 @@ fn a_sine_in_closed_form() {
             * (OWN.1 * moved.norm_sqr() + damping * (moved + elongation).norm_sqr());
         assert!((series.power / lost - 1.0).abs() < 1e-9, "{series:?} {lost}");
     }
+}
+
+/// What an actuator must give for the same dither: displacement, velocity, acceleration of its mass and the force on it.
+#[test]
+fn the_driven_point_in_closed_form() {
+    for (damping, reaction) in [(0.0, true), (0.4, true), (0.0, false), (0.4, false)] {
+        let system = brake(Waveform::Sine, damping, reaction);
+        let sliding = Linearised::new(&system).expect("sliding");
+        let target = &system.inputs[0].target;
+        let point = DrivenPoint::of_input(&system, &sliding, target, &Waveform::Sine, FREQUENCY);
+        let point = point.expect("a spring");
+        let i_omega = Complex64::new(0.0, FREQUENCY);
+        let spring = i_omega * damping + STIFFNESS;
+        let dynamic = spring - FREQUENCY * FREQUENCY + OWN.0 + i_omega * OWN.1;
+        // Guides bear the modulation: the mass stays where it is.
+        let moved = if reaction { -1.0 / dynamic } else { Complex64::ZERO };
+        let elongation = 1.0 / spring;
+        let acceleration = i_omega * i_omega * (elongation + moved);
+        let exact = [1.0 + spring * moved, elongation, i_omega * elongation, acceleration];
+        let one = |force, displacement, velocity, acceleration| PointOutput {
+            force,
+            displacement,
+            velocity,
+            acceleration,
+        };
+        let wanted = [
+            one(1.0, 0.0, 0.0, 0.0),
+            one(0.0, 1.0, 0.0, 0.0),
+            one(0.0, 0.0, 1.0, 0.0),
+            one(0.0, 0.0, 0.0, 1.0),
+        ];
+        for (place, (found, exact)) in point.outputs(&wanted).iter().zip(exact).enumerate() {
+            let [least, largest] = found.range();
+            let size = exact.norm();
+            assert!(
+                (largest - size).abs() < 1e-10 * size && (least + size).abs() < 1e-10 * size,
+                "{place}: {found:?}"
+            );
+        }
+        assert!(point.is_in_series() && !point.velocity_jumps());
+        assert!((point.change_by(15.0, 1.0) - 0.25).abs() < 1e-15);
+    }
+    let system = brake(Waveform::Triangle, 0.0, true);
+    let sliding = Linearised::new(&system).expect("sliding");
+    let of = |waveform| {
+        DrivenPoint::of_input(&system, &sliding, &system.inputs[0].target, waveform, FREQUENCY)
+    };
+    assert!(of(&Waveform::Triangle).expect("continuous").velocity_jumps());
+    let jumps = NoDrivenPoint::InSeries(NoSeriesActuator::Jumps);
+    assert_eq!(of(&Waveform::Square).map(|_| ()), Err(jumps));
+}
+
+/// Guides bear the modulation: it does no work on the structure, and the actuator has a stroke.
+#[test]
+fn a_guided_modulation_has_an_actuator_too() {
+    let found = costs(&brake(Waveform::Sine, 0.0, false));
+    assert_eq!(found.fed, Err(NoPower::Guided));
+    let series = found.in_series.expect("a load").expect("a spring");
+    assert!((series.stroke - 2.0 * AMPLITUDE / STIFFNESS).abs() < 1e-12, "{series:?}");
 }
 
 #[test]

@@ -187,7 +187,7 @@ fn energy_changes_by_the_work_of_dither_friction_and_dampers() {
             .sum();
         let costs = inputs.costs().expect("a duration");
         let dither: Vec<f64> =
-            costs.iter().map(|cost| length * cost.expect("a force").power).collect();
+            costs.iter().map(|cost| length * cost.fed.expect("a force").power).collect();
         let terms = [
             energy(&end.state) - energy(&start.state),
             balance.springs,

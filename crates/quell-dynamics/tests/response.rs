@@ -106,12 +106,12 @@ fn a_squealing_start_is_on_the_cycle() {
 
 /// Mean power that the dither feeds in.
 fn power(response: &SteadyResponse) -> f64 {
-    response.dithered.inputs[0].as_ref().expect("tangential").power
+    response.dithered.inputs[0].fed.expect("tangential").power
 }
 
 /// Peak-to-peak displacement of the mass.
 fn stroke(response: &SteadyResponse) -> f64 {
-    response.dithered.inputs[0].as_ref().expect("tangential").stroke
+    response.dithered.inputs[0].fed.expect("tangential").stroke
 }
 
 /// In pure slip the displacement under a dither of any waveform is that of the linear oscillator: the stroke is that of its
@@ -179,7 +179,7 @@ fn dither_power_closes_the_energy_balance() {
 fn normal_dither_has_no_power_and_a_smallest_load() {
     let dithers = vec![normal(Waveform::Sine, 0.3, 7.0), normal(Waveform::Sine, 0.2, 21.0)];
     let costs = response(&dissertation(LawKind::Decreasing).with_dithers(dithers));
-    assert!(costs.dithered.inputs.iter().all(Result::is_err));
+    assert!(costs.dithered.inputs.iter().all(|cost| cost.fed.is_err()));
     // 1 + 0.3 sin θ + 0.2 sin 3θ has its smallest value found by a fine scan.
     let exact = (0..200_000)
         .map(|k| f64::from(k) * std::f64::consts::TAU / 200_000.0)

@@ -39,5 +39,6 @@ mod row;
 pub mod said;
 pub mod sample_file;
 pub mod study_file;
+mod toml_text;
 pub mod wave_file;
 pub mod wrong_file;

@@ -104,6 +104,14 @@ impl DrivenEquations {
         whole
     }
 
+    /// The rate of a row over the state, as a row over the state and the factor of the wave.
+    pub(crate) fn rate_of(&self, row: &[f64]) -> (Vec<f64>, f64) {
+        let states = self.matrix.rows();
+        let along = |j: usize| (0..states).map(|i| row[i] * self.matrix[(i, j)]).sum();
+        let direct = row.iter().zip(&self.source).map(|(row, b)| row * b).sum();
+        ((0..states).map(along).collect(), direct)
+    }
+
     /// The row of the slip velocity of a contact.
     pub fn slip_row(&self, contact: &LinearContact) -> Vec<f64> {
         let negative: Vec<f64> =

@@ -1,7 +1,8 @@
 //! The steady response of a sliding system to one dither at its driven point: stroke, velocity, power.
 //!
 //! The motion is that of [`crate::driven_point`]. A force b u(t) has the stroke of bᵀq, the largest velocity |bᵀq̇|, and the mean power
-//! ⟨u bᵀq̇⟩. Of one mass it is [`crate::linear_cost`]. Noise has root mean squares alone, sums over its lines.
+//! ⟨u bᵀq̇⟩. A modulation of the load of a contact has those of an actuator in series with it. Of one mass it is [`crate::linear_cost`].
+//! Noise has root mean squares alone, sums over its lines.
 
 use num_complex::Complex64;
 use quell_model::System;
@@ -14,6 +15,7 @@ use crate::harmonic;
 use crate::linear_cost::{LinearCost, NoiseCost};
 use crate::linearised::Linearised;
 use crate::periodic_response::NoPeriodicResponse;
+use crate::series_actuator::NoSeriesActuator;
 
 /// Stroke and largest velocity of the driven point, and mean power of a wave, in the units of the system.
 ///
@@ -48,9 +50,17 @@ pub fn noise_input_cost(
     target: &InputTarget,
     wave: &Wave,
 ) -> Result<NoiseCost, NoDrivenPoint> {
-    let InputTarget::Force(row) = target else { return Err(NoDrivenPoint::Modulation) };
-    if sliding.matrices().is_none() {
-        return Err(NoDrivenPoint::FirstOrder);
+    match target {
+        InputTarget::Friction { .. } => return Err(NoDrivenPoint::Factor),
+        InputTarget::Force(_) if sliding.matrices().is_none() => {
+            return Err(NoDrivenPoint::FirstOrder);
+        }
+        InputTarget::NormalLoad { contact, .. }
+            if sliding.contacts()[*contact].normal_spring().0 <= 0.0 =>
+        {
+            return Err(NoDrivenPoint::InSeries(NoSeriesActuator::NoSpring));
+        }
+        InputTarget::Force(_) | InputTarget::NormalLoad { .. } => {}
     }
     let mut squares = [0.0; 3];
     let mut power = 0.0;
@@ -59,14 +69,25 @@ pub fn noise_input_cost(
         let frequency = line.multiple * wave.frequency;
         let found = harmonic::response(system, sliding, target, frequency)
             .ok_or(NoDrivenPoint::NoResponse(NoPeriodicResponse::Resonance))?;
-        let at: Complex64 = row.iter().zip(&found.displacement).map(|(b, q)| q * *b).sum();
+        let (at, force): (Complex64, Complex64) = match target {
+            InputTarget::NormalLoad { contact, .. } => {
+                let (stiffness, damping) = sliding.contacts()[*contact].normal_spring();
+                let spring = Complex64::new(stiffness, damping * frequency);
+                (spring.inv(), found.contacts[*contact].load)
+            }
+            InputTarget::Force(row) => {
+                let along = row.iter().zip(&found.displacement).map(|(b, q)| q * *b);
+                (along.sum(), Complex64::ONE)
+            }
+            InputTarget::Friction { .. } => return Err(NoDrivenPoint::Factor),
+        };
         let amplitude = line.amplitude * wave.amplitude;
         let mean_square = 0.5 * amplitude * amplitude;
         let velocity = Complex64::new(0.0, frequency) * at;
-        squares[0] += mean_square;
+        squares[0] += mean_square * force.norm_sqr();
         squares[1] += mean_square * at.norm_sqr();
         squares[2] += mean_square * velocity.norm_sqr();
-        power += mean_square * velocity.re;
+        power += mean_square * (force.conj() * velocity).re;
     }
     let [force, displacement, velocity] = squares.map(f64::sqrt);
     Ok(NoiseCost { force, displacement, velocity, power })

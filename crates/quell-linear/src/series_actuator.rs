@@ -7,14 +7,13 @@
 
 use quell_model::Waveform;
 use quell_model::profile::Wave;
-use quell_model::waveform::Piece;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 use crate::periodic_response::{NoPeriodicResponse, ResponseToWave};
 
-/// Difference of two values of a waveform, over the larger, below which they do not jump.
-const EQUAL: f64 = 1e-12;
+/// A jump of a function is larger than this share of its range.
+const JUMP: f64 = 1e-9;
 
 /// Why the motion of an actuator has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +32,7 @@ impl std::fmt::Display for NoSeriesActuator {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::NoSpring => f.write_str(
-                "the contact has no normal stiffness, through which an actuator could act",
+                "the contact has no normal_stiffness, through which an actuator could act",
             ),
             Self::Jumps => f.write_str(
                 "the waveform jumps, and an actuator on a contact without normal damping would have to jump too",
@@ -46,13 +45,59 @@ impl std::fmt::Display for NoSeriesActuator {
 
 impl std::error::Error for NoSeriesActuator {}
 
+/// A row over the states, and the factor of the wave itself.
+pub(crate) type OutputRow = (Vec<f64>, f64);
+
+/// The equations x′ = A x + b g of a structure together with the elongation of an actuator, k u + d u̇ = g: with damping u is a state more,
+/// after those of the structure.
+#[derive(Clone, Debug)]
+pub(crate) struct WithElongation {
+    pub(crate) matrix: Matrix,
+    pub(crate) source: Vec<f64>,
+    /// u.
+    pub(crate) elongation: OutputRow,
+}
+
+impl WithElongation {
+    /// On a contact of this normal stiffness and damping.
+    pub(crate) fn new(
+        matrix: &Matrix,
+        source: &[f64],
+        stiffness: f64,
+        damping: f64,
+    ) -> Result<Self, NoSeriesActuator> {
+        if stiffness <= 0.0 {
+            return Err(NoSeriesActuator::NoSpring);
+        }
+        let n = matrix.rows();
+        let mut source = source.to_vec();
+        if damping == 0.0 {
+            let elongation = (vec![0.0; n], stiffness.recip());
+            return Ok(Self { matrix: matrix.clone(), source, elongation });
+        }
+        let matrix = Matrix::from_fn(n + 1, n + 1, |i, j| match (i == n, j == n) {
+            (false, false) => matrix[(i, j)],
+            (true, true) => -stiffness / damping,
+            _ => 0.0,
+        });
+        source.push(damping.recip());
+        let elongation = (0..=n).map(|i| f64::from(u8::from(i == n))).collect();
+        Ok(Self { matrix, source, elongation: (elongation, 0.0) })
+    }
+}
+
+/// Whether a function has a jump, as opposed to a rounding error.
+pub(crate) fn jumps(function: &PeriodicPolynomial) -> bool {
+    let [least, largest] = function.range();
+    function.largest_jump() > JUMP * (largest - least)
+}
+
 /// The elongation of an actuator under one wave of the load.
 #[derive(Clone, Debug)]
 pub struct SeriesActuator {
     wave: Wave,
-    stiffness: f64,
-    /// Elongation and its rate over the phase, for unit amplitude; `None` without damping, where u = ΔN/k.
-    damped: Option<[PeriodicPolynomial; 2]>,
+    /// Elongation over the phase, for unit amplitude.
+    elongation: PeriodicPolynomial,
 }
 
 impl SeriesActuator {
@@ -61,75 +106,44 @@ impl SeriesActuator {
     /// # Errors
     /// [`NoSeriesActuator`].
     pub fn new(wave: &Wave, stiffness: f64, damping: f64) -> Result<Self, NoSeriesActuator> {
-        if stiffness <= 0.0 {
-            return Err(NoSeriesActuator::NoSpring);
-        }
+        let equations = WithElongation::new(&Matrix::zeros(0, 0), &[], stiffness, damping)?;
         if wave.envelope.is_some() {
             return Err(NoSeriesActuator::Varies);
         }
-        if !wave.waveform.is_periodic() {
-            return Err(NoSeriesActuator::NoResponse(NoPeriodicResponse::Noise));
-        }
-        let wave = wave.clone();
-        if damping == 0.0 {
-            if jumps(&wave.waveform) {
-                return Err(NoSeriesActuator::Jumps);
-            }
-            return Ok(Self { wave, stiffness, damped: None });
-        }
-        let matrix = Matrix::from_fn(1, 1, |_, _| -stiffness / damping);
-        let response =
-            ResponseToWave::new(&matrix, &[damping.recip()], &wave.waveform, wave.frequency)
-                .map_err(NoSeriesActuator::NoResponse)?;
-        // u̇ = (g − k u)/d.
-        let rows: [(&[f64], f64); 2] = [(&[1.0], 0.0), (&[-stiffness / damping], damping.recip())];
-        let mut outputs = response.outputs(&rows);
-        let (Some(rate), Some(elongation)) = (outputs.pop(), outputs.pop()) else {
-            return Err(NoSeriesActuator::NoSpring);
-        };
-        Ok(Self { wave, stiffness, damped: Some([elongation, rate]) })
+        let elongation = equations.elongation(&wave.waveform, wave.frequency)?;
+        Ok(Self { wave: wave.clone(), elongation })
     }
 
     /// Peak-to-peak elongation, a length.
     pub fn stroke(&self) -> f64 {
-        let [least, largest] = if let Some([elongation, _]) = &self.damped {
-            elongation.range()
-        } else {
-            let (least, largest) = self.wave.waveform.range();
-            [least / self.stiffness, largest / self.stiffness]
-        };
+        let [least, largest] = self.elongation.range();
         self.wave.amplitude.abs() * (largest - least)
     }
 
     /// u̇ at a time.
     pub fn rate_at(&self, time: f64) -> f64 {
         let phase = self.wave.frequency.mul_add(time, self.wave.phase);
-        let rate = match &self.damped {
-            Some([_, rate]) => rate.value_and_slope(phase).0,
-            None => self.wave.frequency * self.wave.waveform.slope(phase) / self.stiffness,
-        };
-        self.wave.amplitude * rate
+        let (_, slope) = self.elongation.value_and_slope(phase);
+        self.wave.amplitude * self.wave.frequency * slope
     }
 }
 
-/// Whether a waveform has a jump.
-fn jumps(waveform: &Waveform) -> bool {
-    let (breaks, pieces) = (waveform.breaks(), waveform.pieces());
-    let largest = waveform.peak();
-    breaks.iter().enumerate().any(|(place, start)| {
-        let before = (place + breaks.len() - 1) % breaks.len();
-        let length = (start - breaks[before]).rem_euclid(waveform.period());
-        let length = if length == 0.0 { waveform.period() } else { length };
-        let last = match pieces[before] {
-            Piece::Affine { value, slope } => slope.mul_add(length, value),
-            Piece::Harmonic => libm::sin(*start),
-        };
-        let first = match pieces[place] {
-            Piece::Affine { value, .. } => value,
-            Piece::Harmonic => libm::sin(*start),
-        };
-        (first - last).abs() > EQUAL * largest
-    })
+impl WithElongation {
+    /// u over the phase, for a wave of unit amplitude.
+    fn elongation(
+        &self,
+        waveform: &Waveform,
+        frequency: f64,
+    ) -> Result<PeriodicPolynomial, NoSeriesActuator> {
+        let response = ResponseToWave::new(&self.matrix, &self.source, waveform, frequency)
+            .map_err(NoSeriesActuator::NoResponse)?;
+        let (row, direct) = &self.elongation;
+        let elongation = response.outputs(&[(row, *direct)]).pop();
+        match elongation {
+            Some(elongation) if !jumps(&elongation) => Ok(elongation),
+            _ => Err(NoSeriesActuator::Jumps),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@
 use crate::dither::{Direction, Dither};
 use crate::friction::{Friction, Surroundings};
 use crate::parameter::{
-    BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, NORMAL_LOAD, TANGENTIAL_STIFFNESS, indexed,
+    BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, NORMAL_LOAD, NORMAL_STIFFNESS,
+    TANGENTIAL_STIFFNESS, indexed,
 };
 use crate::profile::{Knots, Profile};
 use crate::units::Scales;
@@ -30,6 +31,8 @@ pub struct Belt {
     dithers: Vec<Dither>,
     /// k_t/k of an elastic slider.
     tangential_stiffness: Option<f64>,
+    /// k_n/k of the spring through which an actuator gives normal dither; 0 where it is not known.
+    normal_stiffness: f64,
     /// Velocity of the belt over time, if it varies.
     drive: Option<Profile>,
     /// Normal load over time, if it varies.
@@ -69,6 +72,7 @@ impl Belt {
             friction,
             dithers,
             tangential_stiffness: None,
+            normal_stiffness: 0.0,
             drive: None,
             load: None,
             scales: None,
@@ -100,6 +104,23 @@ impl Belt {
     /// Tangential stiffness k_t/k of an elastic slider; `None` where the contact is rigid.
     pub fn tangential_stiffness(&self) -> Option<f64> {
         self.tangential_stiffness
+    }
+
+    /// The same belt with a normal stiffness k_n/k > 0 of the contact, through which an actuator that lengthens by u gives the normal dither
+    /// k_n u; `None` where the load is prescribed. It changes no motion, as the mass does not move in the normal direction.
+    ///
+    /// # Errors
+    /// A stiffness that is not finite and positive.
+    pub fn with_normal_stiffness(self, stiffness: Option<f64>) -> Result<Self, InvalidValues> {
+        if let Some(stiffness) = stiffness {
+            NORMAL_STIFFNESS.check(stiffness).map_err(InvalidValues::from)?;
+        }
+        Ok(Self { normal_stiffness: stiffness.unwrap_or(0.0), ..self })
+    }
+
+    /// Normal stiffness k_n/k of the contact; `None` where the load is prescribed.
+    pub fn normal_stiffness(&self) -> Option<f64> {
+        (self.normal_stiffness > 0.0).then_some(self.normal_stiffness)
     }
 
     /// Whether friction has a state of its own: an elastic slider, or a law with one ([`Friction::bristles`]).
@@ -199,6 +220,7 @@ impl Belt {
         let friction = self.friction.clone();
         Self::new(self.damping_ratio, load, velocity, friction, dithers.collect())?
             .with_tangential_stiffness(self.tangential_stiffness)
+            .map(|belt| Self { normal_stiffness: self.normal_stiffness, ..belt })
             .map(|belt| belt.in_si(self.scales))
     }
 
@@ -448,6 +470,7 @@ impl Belt {
             Some(load) => belt.loaded(load)?,
             None => belt,
         };
+        let belt = Self { normal_stiffness: self.normal_stiffness, ..belt };
         Ok(belt.with_tangential_stiffness(stiffness)?.in_si(self.scales))
     }
 }

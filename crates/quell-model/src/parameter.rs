@@ -216,6 +216,19 @@ pub const TANGENTIAL_STIFFNESS: Parameter = Parameter {
         .named("k_t", "tangential stiffness of the contact")],
 };
 
+/// Normal stiffness of the contact.
+pub const NORMAL_STIFFNESS: Parameter = Parameter {
+    path: "belt.normal_stiffness",
+    symbol: "k_n",
+    about: "normal stiffness of the contact over k, through which an actuator gives normal dither",
+    quantity: Quantity::Stiffness,
+    bounds: Bounds::POSITIVE,
+    si: &[si("normal_stiffness_n_per_m", "N/m").named(
+        "k_n",
+        "normal stiffness of the contact, through which an actuator gives normal dither",
+    )],
+};
+
 /// Initial displacement.
 pub const INITIAL_DISPLACEMENT: Parameter = Parameter {
     path: "belt.initial.displacement",
@@ -435,6 +448,7 @@ pub const BELT: &[Parameter] = &[
     NORMAL_LOAD,
     BELT_VELOCITY,
     TANGENTIAL_STIFFNESS,
+    NORMAL_STIFFNESS,
     INITIAL_DISPLACEMENT,
     INITIAL_VELOCITY,
     DITHER_AMPLITUDE,

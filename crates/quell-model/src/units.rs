@@ -7,8 +7,10 @@ use crate::{Invalid, InvalidValues};
 
 pub mod measure;
 mod unit_system;
+mod values;
 
 pub use unit_system::UnitSystem;
+pub use values::UnitValues;
 
 /// The kind of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -162,6 +162,20 @@ impl NativeStudy {
         })
     }
 
+    /// The study as that of a system, and what was left out.
+    fn converted(&self, py: Python<'_>) -> PyResult<(Self, Vec<String>)> {
+        let study = self.study();
+        let converted = call::here(py, move || {
+            study
+                .as_system()
+                .map_err(|complaints| Failure::Wrong(errors::without_lines(complaints)))
+        })?;
+        let warnings = converted.warnings();
+        let inner = Arc::new(converted.study);
+        let study = Self { inner, changes: Vec::new(), axes: None, has_lines: false, file: None };
+        Ok((study, warnings))
+    }
+
     /// The same study with these axes in place of its own.
     fn swept(&self, py: Python<'_>, axes: Vec<AxisKeys>) -> PyResult<Self> {
         self.remade(py, self.changes.clone(), Some(axes))

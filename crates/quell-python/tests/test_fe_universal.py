@@ -286,3 +286,33 @@ def test_wrong_functions_are_refused_with_their_line(tmp_path: Path) -> None:
     ]:
         with pytest.raises(quell.StudyError, match=words):
             quell.from_universal_file(write(tmp_path / "f.uff", wrong), **how)
+
+
+def test_complex_modes_are_written_and_read_again(tmp_path: Path) -> None:
+    """The motions of a structure with nodes, and one without."""
+    hertz = [12.0, 31.0, 55.0]
+    modes = [mode_2414(number, value, 2.0, REAL) for number, value in enumerate(hertz, 1)]
+    shapes = [[complex(x * (1 + place) ** number) for place, x in enumerate(SHAPE)] for number in range(3)]
+    modes = [mode_2414(number + 1, value, 2.0, shape) for number, (value, shape) in enumerate(zip(hertz, shapes, strict=True))]
+    study = quell.from_universal_file(write(tmp_path / "m.unv", *modes), damping_ratio=[0.01, 0.02, 0.03], units="SI", contact=pad()["contact"])
+    path = study.modes().to_universal_file(tmp_path / "out.unv")
+    lines = Path(path).read_text().splitlines()
+    assert lines[1].strip() == "164" and lines[2].startswith(f"{1:10d}SI")
+    again = quell.from_universal_file(path, modal_mass=[2.0] * 3, units="file", contact=pad()["contact"])
+    for mode, value, ratio, shape in zip(again.mode, hertz, [0.01, 0.02, 0.03], shapes, strict=True):
+        assert mode.given["frequency"] == pytest.approx(2 * np.pi * value, rel=2e-3)
+        assert mode.given["damping_ratio"] == pytest.approx(ratio, rel=0.1)
+        found = np.array([mode.given["shape"][f"n{node}_{way}"] for node in NODES for way in "xyz"])
+        mac = np.dot(found, np.real(shape)) ** 2 / np.dot(found, found) / np.dot(np.real(shape), np.real(shape))
+        assert mac > 0.9999
+    with pytest.raises(quell.StudyError, match="a new file"):
+        study.modes().to_universal_file(path)
+    plain = quell.load(Path(__file__).parents[3] / "studies" / "mode-coupling.toml")
+    stability = plain.stability()
+    written = Path(stability.to_universal_file(tmp_path / "plain.unv")).read_text().splitlines()
+    assert "164" not in written[1] and "node 1 x: x, node 2 x: y" in written[5]
+    rate = complex(*(float(written[9][at : at + 13]) for at in (0, 13)))
+    assert rate == pytest.approx(stability.eigenvalues[0], rel=1e-5)
+    disc = quell.load(Path(__file__).parents[3] / "studies" / "figure-5.3.toml")
+    with pytest.raises(quell.StudyError, match="convert"):
+        disc.modes().to_universal_file(tmp_path / "disc.unv")

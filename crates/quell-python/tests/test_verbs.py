@@ -38,6 +38,9 @@ OTHER_NAMES = {"--from": "from_", "--no-title": "title"}
 DRAWINGS = {"sketch", "report"}
 """Verbs whose answer is a file; Python returns its text, and `--out` is the argument `path`."""
 
+CONVERSIONS = {"convert"}
+"""Verbs whose answer is a study."""
+
 BESIDE = {
     "quell.sweep",
     "quell.quantities",
@@ -63,7 +66,7 @@ def offered() -> dict[str, Any]:
     verbs = {
         name: method
         for name, method in members
-        if name not in FITS and (name in DRAWINGS or (not name.startswith("_") and "results." in str(method.__annotations__.get("return"))))
+        if name not in FITS and (name in DRAWINGS | CONVERSIONS or (not name.startswith("_") and "results." in str(method.__annotations__.get("return"))))
     }
     functions = {
         name: it for name, it in vars(quell).items() if inspect.isfunction(it) and name in quell.__all__

@@ -127,7 +127,7 @@ pub const VERBS: &[StudyVerb] = &[
     verb("thresholds", Needs::MOTIONS),
     verb("waveforms", Needs::MOTIONS),
     verb("design", Needs::STEADY),
-    verb("actuator", Needs::MOTIONS),
+    verb("actuator", Needs::STEADY),
     verb("probability", Needs::SLIDING),
     verb("bifurcation", Needs::MOTIONS),
     verb("bifurcation --ramp", Needs::COURSE),

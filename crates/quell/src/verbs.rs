@@ -26,6 +26,7 @@ use crate::run::{
     probability, ramp, response, simulate, stability, thresholds, waveforms, window,
 };
 use crate::running::Running;
+use crate::said::Mention;
 use crate::study::{DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy, not_periodic};
 
 /// The answer of a verb, or why it failed.
@@ -87,6 +88,11 @@ impl Verbs {
             let names: Vec<String> = names.iter().map(named).collect();
             let verbs = format!("; its verbs are {}", names.join(", "));
             complaint.allowed = complaint.allowed.text(verbs);
+            if self.disc().is_some() {
+                let convert = Mention::Verb("convert".to_owned());
+                let allowed = complaint.allowed.text("; ").mention(convert);
+                complaint.allowed = allowed.text(" writes it as a system, which has them all");
+            }
         }
         Err(complaint.into())
     }
@@ -328,6 +334,11 @@ impl Verbs {
     /// As [`actuator::run`].
     pub fn actuator(&self, frequencies: Option<(f64, f64)>) -> Reply {
         let study = self.system("actuator")?;
+        // The actuator of a disc is in SI, as the system of the disc is then.
+        let study = match self.disc().and_then(|disc| disc.actuator().cloned()) {
+            Some(_) => self.study.as_system()?.study.system(),
+            None => study,
+        };
         answer(&study, actuator::run(&study, frequencies))
     }
 

@@ -3,6 +3,7 @@
 //! One program: each links the whole workspace, and its tests share the processors.
 
 mod belts_as_systems;
+mod converted;
 mod criticality;
 mod describing;
 mod design;

@@ -64,6 +64,10 @@ verbs! {
             "quell report quench.toml --out quench.html",
             "quell report two-mass-drive.toml --out drive.html --without thresholds",
         ],
+        Convert(convert): [
+            "quell convert quench.toml",
+            "quell convert disc.toml --to system --save disc-as-system.toml",
+        ],
         Schema(schema): [
             "quell schema",
             "quell schema contact",

@@ -51,7 +51,7 @@ impl CoilActuator {
     }
 
     /// What it must give for a dither of unit amplitude.
-    pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
+    pub(super) fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
         let own = PointOutput {
             force: 1.0,
             displacement: self.stiffness,
@@ -102,6 +102,7 @@ impl CoilActuator {
             force,
             displacement,
             change_of_structure: point.change_by(self.stiffness, self.mass),
+            in_series: point.is_in_series(),
             voltage,
             current,
             samples_per_period,

@@ -351,6 +351,7 @@ mod tests {
             .map(|(limit, allowed)| LimitUse { limit: *limit, used: Ok(allowed.recip()) })
             .collect();
         let demand = ActuatorDemand {
+            in_series: false,
             force: NOTHING,
             displacement: NOTHING,
             voltage: Err(UnknownDemand::NoLimit),

@@ -98,6 +98,10 @@ pub enum UnknownDemand {
     CurrentJumps,
     /// The voltage jumps, which a capacitance does not allow.
     VoltageJumps,
+    /// Neither the stroke nor the stiffness of a piezo stack in series with a contact is given, which its force also bends.
+    NoOwnSpring,
+    /// The velocity of the elongation jumps, which the mass of an actuator does not allow.
+    VelocityJumps,
     /// The file of a measured actuator has no column with this name.
     NoColumn(&'static str),
     /// It was measured with a sine.
@@ -136,6 +140,12 @@ impl fmt::Display for UnknownDemand {
             Self::VoltageJumps => {
                 f.write_str("the voltage jumps, which needs an unlimited current")
             }
+            Self::NoOwnSpring => f.write_str(
+                "free_stroke or stiffness of the piezo stack is needed for it: in series with a contact the stack also bends itself",
+            ),
+            Self::VelocityJumps => f.write_str(
+                "the velocity of the elongation jumps, for which the mass of the actuator needs an unlimited force",
+            ),
             Self::NoColumn(name) => write!(f, "the file has no column {name}"),
             Self::NotSine => f.write_str("a measured frequency response holds for a sine"),
             Self::OutsideMeasured => {
@@ -173,8 +183,11 @@ pub struct ActuatorDemand {
     pub voltage: Result<SignalSize, UnknownDemand>,
     /// Current about its mean in amperes, or why it is unknown.
     pub current: Result<SignalSize, UnknownDemand>,
-    /// Ratio of its own spring or mass to those of the structure at the driven point, which is judged without them.
+    /// Ratio of its own spring or mass to those of the structure at the driven point, which is judged without them; in series with a
+    /// contact the share by which it softens it.
     pub change_of_structure: f64,
+    /// Whether it is in series with a contact.
+    pub in_series: bool,
     /// Samples of the controller in a period of the dither.
     pub samples_per_period: Option<f64>,
     /// How far each limit is used.
@@ -220,6 +233,7 @@ impl ActuatorDemand {
             voltage: sized(&self.voltage),
             current: sized(&self.current),
             change_of_structure: self.change_of_structure,
+            in_series: self.in_series,
             samples_per_period: self.samples_per_period,
             limits: limits.collect(),
         }

@@ -40,7 +40,7 @@ impl MeasuredActuator {
     }
 
     /// What it must give for a dither of unit amplitude.
-    pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
+    pub(super) fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
         let outputs = point.outputs(&[PointOutput::FORCE, PointOutput::DISPLACEMENT]);
         let force = SignalSize::of(&outputs[0], 1.0);
         let known = self.place(point);
@@ -70,6 +70,7 @@ impl MeasuredActuator {
             displacement: SignalSize::of(&outputs[1], 1.0),
             // It was measured on the structure.
             change_of_structure: 0.0,
+            in_series: point.is_in_series(),
             voltage,
             current,
             samples_per_period: None,

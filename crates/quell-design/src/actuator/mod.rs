@@ -7,7 +7,9 @@
 //! F_a = F + k_a x + m_a ẍ
 //! ```
 //!
-//! with the exact periodic motion x of the driven point ([`quell_linear::driven_point`]), for any periodic waveform. A piezo stack
+//! with the exact periodic motion x of the driven point ([`quell_linear::driven_point`]), for any periodic waveform. Where the dither
+//! modulates the load of a contact, the actuator is in series with the contact: x is its elongation, F all by which the load varies, and
+//! its mass is at the contact, carried by the structure. A piezo stack
 //! makes F_a = F_b U/U_max, a coil F_a = K_f I. All is proportional to the amplitude, so that each limit gives the largest amplitude
 //! that keeps it; the least of them is the reach of the actuator.
 
@@ -109,13 +111,35 @@ impl Actuator {
         }
     }
 
-    /// What it must give for a dither of unit amplitude at a driven point.
-    pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
+    /// Its spring and its mass.
+    fn passive(&self) -> (f64, f64) {
         match self {
+            Self::Piezo(PiezoStack { stiffness, mass, .. })
+            | Self::VoiceCoil(CoilActuator { stiffness, mass, .. })
+            | Self::Motor(CoilActuator { stiffness, mass, .. }) => (*stiffness, *mass),
+            Self::Measured(_) => (0.0, 0.0),
+        }
+    }
+
+    /// What it must give for a dither of unit amplitude at a driven point.
+    ///
+    /// # Errors
+    /// In series with a contact a piezo stack without stiffness, and a mass whose velocity would have to jump.
+    pub fn demand(&self, point: &DrivenPoint<'_>) -> Result<ActuatorDemand, UnknownDemand> {
+        let (stiffness, mass) = self.passive();
+        if point.is_in_series() {
+            if stiffness == 0.0 && matches!(self, Self::Piezo(_)) {
+                return Err(UnknownDemand::NoOwnSpring);
+            }
+            if mass > 0.0 && point.velocity_jumps() {
+                return Err(UnknownDemand::VelocityJumps);
+            }
+        }
+        Ok(match self {
             Self::Piezo(stack) => stack.demand(point),
             Self::VoiceCoil(coil) | Self::Motor(coil) => coil.demand(point),
             Self::Measured(measured) => measured.demand(point),
-        }
+        })
     }
 }
 
@@ -148,7 +172,8 @@ mod tests {
     #[test]
     fn a_piezo_stack_under_a_sine() {
         for frequency in [0.3, 0.99, 4.0, 30.0] {
-            let demand = Actuator::Piezo(stack()).demand(&point(&Waveform::Sine, frequency));
+            let demand =
+                Actuator::Piezo(stack()).demand(&point(&Waveform::Sine, frequency)).expect("known");
             let square: f64 = frequency * frequency;
             let (re, im) = (1.0 - square, 2.0 * 0.02 * frequency);
             // F_a = (K + k_a − m_a ω²)/K of the force.
@@ -223,7 +248,9 @@ mod tests {
             sample_rate: Some(40.0),
         };
         let frequency = 5.0;
-        let demand = Actuator::VoiceCoil(coil.clone()).demand(&point(&Waveform::Sine, frequency));
+        let demand = Actuator::VoiceCoil(coil.clone())
+            .demand(&point(&Waveform::Sine, frequency))
+            .expect("known");
         let square = frequency * frequency;
         let structure = [1.0 - square, 2.0 * 0.02 * frequency];
         let divided = |[a, b]: [f64; 2], [c, d]: [f64; 2]| {

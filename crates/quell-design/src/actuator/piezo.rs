@@ -39,7 +39,7 @@ impl PiezoStack {
     }
 
     /// What it must give for a dither of unit amplitude.
-    pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
+    pub(super) fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
         let own = PointOutput {
             force: 1.0,
             displacement: self.stiffness,
@@ -72,6 +72,7 @@ impl PiezoStack {
             force,
             displacement: SignalSize::of(&outputs[1], 1.0),
             change_of_structure: point.change_by(self.stiffness, self.mass),
+            in_series: point.is_in_series(),
             voltage,
             current,
             samples_per_period: None,

@@ -20,8 +20,11 @@ use quell_disc::dithered;
 use quell_disc::marginal::{DiscExponent, MarginalValue, exponents, marginal_values, tongue_grid};
 use quell_disc::resonance::{Order, Resonance, Tongue, Waves};
 use quell_disc::undithered;
+use quell_linear::driven_point::DrivenPoint;
 use quell_linear::growth::Verdict;
-use quell_model::disc::DiscDither;
+use quell_linear::linearised::Linearised;
+use quell_model::disc::{Contributions, DiscDither};
+use quell_model::system::InputTarget;
 use quell_model::{Disc, RefusedNumbers};
 use quell_numerics::order::ascending;
 
@@ -218,8 +221,26 @@ impl Plant for DiscPlant<'_> {
             .ok_or(NoAnswer::NotOfDisc(NotOfDisc::NormalLoad))
     }
 
-    fn demand(&self, _: OperatingPoint<'_>, _: &Actuator) -> Result<ActuatorDemand, NoAnswer> {
-        Err(NoAnswer::NotOfDisc(NotOfDisc::Actuator))
+    /// Of an actuator behind the spring of every load, in SI.
+    fn demand(
+        &self,
+        at: OperatingPoint<'_>,
+        actuator: &Actuator,
+    ) -> Result<ActuatorDemand, NoAnswer> {
+        let disc = (self.at)(at, 0.0)?;
+        let unknown = NoAnswer::NotOfDisc(NotOfDisc::Actuator);
+        let system = disc.system_in_si(Contributions::ALL).ok_or_else(|| unknown.clone())??;
+        let pressed = system.inputs.iter().find_map(|input| match input.target {
+            InputTarget::NormalLoad { contact, .. } => {
+                Some((input, input.profile.waves().first()?, contact))
+            }
+            InputTarget::Force(_) | InputTarget::Friction { .. } => None,
+        });
+        let (input, wave, contact) = pressed.ok_or(unknown)?;
+        let sliding = Linearised::new(&system)?;
+        let (waveform, frequency) = (&wave.waveform, wave.frequency);
+        let point = DrivenPoint::of_input(&system, &sliding, &input.target, waveform, frequency)?;
+        Ok(actuator.demand(&point)?.at(system.contacts[contact].normal_load))
     }
 
     fn special_points(

@@ -366,7 +366,7 @@ impl Plant for SystemPlant<'_> {
         at: OperatingPoint<'_>,
         actuator: &Actuator,
     ) -> Result<ActuatorDemand, NoAnswer> {
-        self.about_point(at, |point| actuator.demand(point))
+        Ok(self.about_point(at, |point| actuator.demand(point))??)
     }
 
     #[expect(

@@ -17,7 +17,8 @@ use super::observer::{MotionObserver, MotionSegment};
 use super::phase::ContactPhase;
 use super::row_meter::RowRange;
 use super::rows::RowEntries;
-use crate::simulation::Clock;
+
+use crate::simulation::{Clock, Series};
 
 /// Why the power and the stroke of an input are unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,12 +54,19 @@ impl NoPower {
 /// The cost of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InputCost {
-    /// Mean power that it feeds into the structure.
+    /// What it does to the structure.
+    pub fed: Result<FedCost, NoPower>,
+    /// Of a modulation of a load: the actuator in series with the spring of the contact; `None` for a force.
+    pub in_series: Option<Result<SeriesCost, NoSeriesActuator>>,
+}
+
+/// What an input does to the structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FedCost {
+    /// Mean power that it feeds in.
     pub power: f64,
     /// Peak-to-peak displacement along its row.
     pub stroke: f64,
-    /// Of a modulation of a load: the actuator in series with the spring of the contact; `None` for a force.
-    pub in_series: Option<Result<SeriesCost, NoSeriesActuator>>,
 }
 
 /// The cost of an actuator in series with the spring of a contact.
@@ -70,17 +78,18 @@ pub struct SeriesCost {
     pub stroke: f64,
 }
 
-/// One input that does work.
+/// One input.
 #[derive(Clone, Debug)]
 struct Worker<'s> {
-    /// Row over the displacements and over the velocities.
-    rows: [RowEntries; 2],
+    /// Row over the displacements and over the velocities, and the sign of the force along it.
+    rows: Result<([RowEntries; 2], f64), NoPower>,
     profile: &'s Profile,
-    sign: f64,
     /// Its number among the forces, if it is one.
     push: Option<usize>,
     /// The contact without which it does no work.
     contact: Option<usize>,
+    /// Steady load of that contact.
+    steady_load: f64,
     /// Of a modulation of a load: an actuator for each wave, and its work.
     in_series: Option<Result<Vec<SeriesActuator>, NoSeriesActuator>>,
     series_work: f64,
@@ -92,7 +101,7 @@ struct Worker<'s> {
 #[derive(Clone, Debug)]
 pub struct InputMeter<'s> {
     length: f64,
-    inputs: Vec<Result<Worker<'s>, NoPower>>,
+    inputs: Vec<Worker<'s>>,
     set: InstructionSet,
 }
 
@@ -101,51 +110,42 @@ impl<'s> InputMeter<'s> {
     pub fn new(system: &'s System) -> Self {
         let mut pushes = 0..;
         let inputs = system.inputs.iter().map(|input| {
-            let Structure::Mechanical(structure) = &system.structure else {
-                return Err(NoPower::FirstOrder);
-            };
             let push =
                 matches!(input.target, InputTarget::Force(_)).then(|| pushes.next()).flatten();
-            let (row, sign, contact) = match &input.target {
-                InputTarget::Force(row) => (row, 1.0, None),
-                InputTarget::Friction { .. } => return Err(NoPower::Factor),
-                InputTarget::NormalLoad { reaction: false, .. } => return Err(NoPower::Guided),
-                InputTarget::NormalLoad { contact, .. } => {
-                    let normal = system.contacts[*contact].normal.as_ref();
-                    (normal.ok_or(NoPower::NoNormal)?, -1.0, Some(*contact))
-                }
+            let contact = match input.target {
+                InputTarget::NormalLoad { contact, .. } => Some(contact),
+                InputTarget::Force(_) | InputTarget::Friction { .. } => None,
             };
-            let rows = [RowEntries::at(row, 0), RowEntries::at(row, structure.size())];
-            let (profile, extremes) = (&input.profile, RowRange::NONE);
             let in_series = contact.map(|contact| {
                 let Contact { normal_stiffness, normal_damping, .. } = system.contacts[contact];
-                let waves = profile.waves().iter();
+                let waves = input.profile.waves().iter();
                 waves
                     .map(|wave| SeriesActuator::new(wave, normal_stiffness, normal_damping))
                     .collect()
             });
-            let (work, series_work) = (0.0, 0.0);
-            Ok(Worker {
-                rows,
-                profile,
-                sign,
+            Worker {
+                rows: rows_of(system, &input.target),
+                profile: &input.profile,
                 push,
                 contact,
+                steady_load: contact.map_or(0.0, |contact| system.contacts[contact].normal_load),
                 in_series,
-                series_work,
-                work,
-                extremes,
-            })
+                series_work: 0.0,
+                work: 0.0,
+                extremes: RowRange::NONE,
+            }
         });
         let inputs = inputs.collect();
         Self { length: 0.0, inputs, set: InstructionSet::widest() }
     }
 
     /// The cost of every input; `None` if no time has been measured.
-    pub fn costs(&self) -> Option<Vec<Result<InputCost, NoPower>>> {
+    pub fn costs(&self) -> Option<Vec<InputCost>> {
         let cost = |worker: &Worker<'_>| InputCost {
-            power: worker.work / self.length,
-            stroke: worker.extremes.width(),
+            fed: worker.rows.as_ref().map_err(|why| *why).map(|_| FedCost {
+                power: worker.work / self.length,
+                stroke: worker.extremes.width(),
+            }),
             in_series: worker.in_series.as_ref().map(|actuators| {
                 let actuators = actuators.as_ref().map_err(|why| *why)?;
                 Ok(SeriesCost {
@@ -154,16 +154,31 @@ impl<'s> InputMeter<'s> {
                 })
             }),
         };
-        let all = self.inputs.iter();
-        (self.length > 0.0)
-            .then(|| all.map(|input| input.as_ref().map(cost).map_err(|why| *why)).collect())
+        (self.length > 0.0).then(|| self.inputs.iter().map(cost).collect())
     }
+}
+
+/// The rows along which an input does work on the structure, and the sign of its force.
+fn rows_of(system: &System, target: &InputTarget) -> Result<([RowEntries; 2], f64), NoPower> {
+    let Structure::Mechanical(structure) = &system.structure else {
+        return Err(NoPower::FirstOrder);
+    };
+    let (row, sign) = match target {
+        InputTarget::Force(row) => (row, 1.0),
+        InputTarget::Friction { .. } => return Err(NoPower::Factor),
+        InputTarget::NormalLoad { reaction: false, .. } => return Err(NoPower::Guided),
+        InputTarget::NormalLoad { contact, .. } => {
+            let normal = system.contacts[*contact].normal.as_ref();
+            (normal.ok_or(NoPower::NoNormal)?, -1.0)
+        }
+    };
+    Ok(([RowEntries::at(row, 0), RowEntries::at(row, structure.size())], sign))
 }
 
 impl MotionObserver for InputMeter<'_> {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
         self.length += segment.duration();
-        for worker in self.inputs.iter_mut().flatten() {
+        for worker in &mut self.inputs {
             with_lanes(self.set, InputOnSegment { worker, segment });
         }
     }
@@ -180,38 +195,59 @@ impl LaneWork for InputOnSegment<'_, '_, '_> {
     #[inline(always)]
     fn run<V: Lane>(self) {
         let Self { worker, segment } = self;
-        let duration = segment.duration();
-        let [displacement, velocity] = [0, 1].map(|row| segment.row_of(&worker.rows[row]));
-        worker.extremes.add(&displacement, duration);
         let open = |contact: usize| segment.phase(contact) == ContactPhase::Open;
-        if worker.contact.is_some_and(open) {
-            return;
+        let is_open = worker.contact.is_some_and(open);
+        if let Ok((rows, sign)) = &worker.rows {
+            let duration = segment.duration();
+            let [displacement, velocity] = [0, 1].map(|row| segment.row_of(&rows[row]));
+            worker.extremes.add(&displacement, duration);
+            if !is_open {
+                let power = worker.mean_power::<V>(&velocity, segment);
+                worker.work = f64::mul_add(sign * duration, power, worker.work);
+            }
         }
-        let moments = moments_of(duration);
-        let mut powers = values_at::<V>(&velocity, &moments);
-        match worker.push.and_then(|push| segment.force(push)) {
+        worker.work_in_series(segment, is_open);
+    }
+}
+
+impl Worker<'_> {
+    /// Mean of the force times the velocity along its row, over a segment.
+    #[inline(always)]
+    fn mean_power<V: Lane>(&self, velocity: &Series, segment: &MotionSegment<'_>) -> f64 {
+        let moments = moments_of(segment.duration());
+        let mut powers = values_at::<V>(velocity, &moments);
+        match self.push.and_then(|push| segment.force(push)) {
             Some(force) => {
-                let (forces, mean) = (values_at::<V>(force, &moments), worker.profile.mean());
+                let (forces, mean) = (values_at::<V>(force, &moments), self.profile.mean());
                 powers.iter_mut().zip(&forces).for_each(|(power, force)| *power *= force - mean);
             }
             None => {
                 for (power, since) in powers.iter_mut().zip(&moments[..NODES]) {
-                    *power *= wave_force(worker.profile, segment.clock(), *since);
+                    *power *= wave_force(self.profile, segment.clock(), *since);
                 }
             }
         }
-        worker.work = f64::mul_add(worker.sign * duration, mean_of(&powers), worker.work);
-        let (Some(contact), Some(Ok(actuators))) = (worker.contact, &worker.in_series) else {
+        mean_of(&powers)
+    }
+
+    /// Adds the work of actuators in series with the contact, against the load less its steady part: that does none in a period, and over a
+    /// record of other length only what its ends make of it.
+    fn work_in_series(&mut self, segment: &MotionSegment<'_>, is_open: bool) {
+        let (Some(contact), Some(Ok(actuators))) = (self.contact, &self.in_series) else {
             return;
         };
-        let load = segment.normal_load(contact);
+        let (load, duration) = (segment.normal_load(contact), segment.duration());
+        let load_at = |since: f64| if is_open { 0.0 } else { horner(load, since) };
         let [nodes, weights] = &*RULE;
         for (node, weight) in nodes.iter().zip(weights) {
             let since = node * duration;
             let time = segment.clock().after(since).time();
             let rate: f64 = actuators.iter().map(|actuator| actuator.rate_at(time)).sum();
-            worker.series_work =
-                f64::mul_add(weight * duration, horner(load, since) * rate, worker.series_work);
+            self.series_work = f64::mul_add(
+                weight * duration,
+                (load_at(since) - self.steady_load) * rate,
+                self.series_work,
+            );
         }
     }
 }

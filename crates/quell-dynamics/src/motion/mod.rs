@@ -86,7 +86,7 @@ use crate::simulation::DEFAULT_TOLERANCE;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
 pub use engine::MOTION_TOLERANCE;
-pub use input_meter::{InputCost, InputMeter, NoPower, SeriesCost};
+pub use input_meter::{FedCost, InputCost, InputMeter, NoPower, SeriesCost};
 pub use lanes::{PlannedMotion, run_many, run_many_with};
 pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
 pub use observer::{

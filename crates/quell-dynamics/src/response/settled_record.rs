@@ -11,7 +11,7 @@ use super::response_plan::ResponsePlan;
 use super::system_ending::{SystemEnding, drifts};
 use crate::motion::{
     ContactMeans, ContactMeter, InputCost, InputMeter, Motion, MotionEnd, MotionObserver,
-    MotionSegment, MotionStart, MotionStopped, NoPower, ReadingSampler, RowMeter,
+    MotionSegment, MotionStart, MotionStopped, ReadingSampler, RowMeter,
 };
 use crate::orbit::is_on_sliding;
 
@@ -37,7 +37,7 @@ pub struct SettledRecord {
     /// The contacts over one period of the orbit, or over the record.
     pub contacts: Vec<ContactMeans>,
     /// The inputs over one period of the orbit, or over the record.
-    pub inputs: Vec<Result<InputCost, NoPower>>,
+    pub inputs: Vec<InputCost>,
     /// Largest slip speed of every contact from the start to the end of the record, transient included; 0 where the law has no range that
     /// slip may leave.
     pub largest_slip: Vec<f64>,

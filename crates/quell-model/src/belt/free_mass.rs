@@ -72,6 +72,7 @@ impl System {
             friction: own.friction.clone(),
             dithers,
             tangential_stiffness: own.tangential_stiffness.map(|stiffness| mobility * stiffness),
+            normal_stiffness: 0.0,
             drive: None,
             load: None,
             scales: None,

@@ -145,6 +145,7 @@ impl System {
             friction: contact.friction.clone(),
             dithers,
             tangential_stiffness: None,
+            normal_stiffness: 0.0,
             drive: None,
             load: None,
             scales: None,

@@ -29,9 +29,11 @@ use quell_numerics::matrix::Matrix;
 
 use super::plate::SpeedFactors;
 use super::{Carrier, Contribution, Contributions, Disc, Load, PatchPoint};
-use crate::friction::{Coulomb, Friction};
+use crate::InvalidValues;
+use crate::friction::{Coulomb, Friction, Surroundings};
 use crate::profile::{KnotShape, Knots, Profile, Wave};
 use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
+use crate::units::UnitValues;
 
 impl Disc {
     /// The system of the whole disc.
@@ -94,6 +96,34 @@ impl Disc {
             None => structure,
         };
         System { structure: structure.into(), contacts, inputs }
+    }
+
+    /// The system of some contributions in kilograms, metres, seconds and newtons: M_p, the radius r₀ of the first load and 1/ω_ref are
+    /// its units. `None` where the study does not determine them. Under a law a modulation of the normal load adds αN₀g to the load there,
+    /// as an actuator behind the spring of the load does; to first order in the deflection that is the factor 1 + αg on friction.
+    ///
+    /// # Errors
+    /// A law whose numbers are out of their bounds in metres per second.
+    pub fn system_in_si(&self, parts: Contributions) -> Option<Result<System, InvalidValues>> {
+        let scales = self.scales(0)?;
+        let (mass, length) = (scales.plate_mass_kg?, scales.load_radius_m?);
+        let rate = scales.angular_frequency();
+        let velocity = length * rate;
+        let force = mass * velocity * rate;
+        let unit = UnitValues { mass, length, time: rate.recip(), force, velocity };
+        let mut own = self.system_of(parts);
+        if self.law().is_none() {
+            own.contacts.iter_mut().for_each(|contact| given_force(contact, self.speed()));
+        }
+        Some(own.in_units(&unit).and_then(|mut system| {
+            for contact in &mut system.contacts {
+                let slip = contact.surface_velocity.bounds();
+                let slip = slip.0.abs().max(slip.1.abs());
+                contact.friction =
+                    contact.friction.placed(&Surroundings { normal_load: slip, slip })?;
+            }
+            Ok(if self.law().is_some() { system.with_loads_modulated() } else { system })
+        }))
     }
 
     /// Friction at a point of a load: as a given follower force, or by the law.
@@ -202,6 +232,37 @@ impl Disc {
         normal.resize(self.coordinates(), 0.0);
         slope.resize(self.coordinates(), 0.0);
         (normal, slope)
+    }
+}
+
+/// Writes a contact whose friction is given as a force as one of this load with the coefficient 1, at the speed of the disc: of load and
+/// coefficient only the product is known, and the contact has the direction of the force.
+fn given_force(contact: &mut Contact, speed: f64) {
+    let coefficient = contact.friction.coefficient(1.0);
+    if coefficient > 0.0 {
+        contact.normal_load *= coefficient;
+        contact.friction = Friction::Coulomb(Coulomb::constant(1.0));
+    }
+    if speed != 0.0 {
+        contact.surface_velocity = contact.surface_velocity.scaled(speed.abs());
+    }
+}
+
+impl System {
+    /// The same with factors 1 + αg on friction as loads αN₀g, which guides bear.
+    fn with_loads_modulated(mut self) -> Self {
+        let loads: Vec<f64> = self.contacts.iter().map(|contact| contact.normal_load).collect();
+        for input in &mut self.inputs {
+            if let InputTarget::Friction { contact } = input.target
+                && input.profile.mean() == 1.0
+            {
+                let varied = input.profile.scaled(loads[contact]);
+                input.profile = varied.about(0.0);
+                input.target = InputTarget::NormalLoad { contact, reaction: false };
+            }
+        }
+        self.inputs.retain(|input| input.profile != Profile::constant(0.0));
+        self
     }
 }
 

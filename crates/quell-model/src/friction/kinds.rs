@@ -11,7 +11,7 @@ use super::{
     StribeckExponential, Surroundings,
 };
 use crate::parameter::Parameter;
-use crate::units::{Quantity, Scales};
+use crate::units::UnitValues;
 use crate::{Invalid, InvalidValues};
 
 macro_rules! laws {
@@ -317,12 +317,12 @@ laws!(
 );
 
 impl Friction {
-    /// The law of a study in SI with slip in metres per second in place of the numbers of the equations.
+    /// The law with slip in another unit of velocity.
     ///
     /// # Errors
-    /// Numbers that are out of their bounds in SI.
-    pub fn in_si(&self, scales: &Scales) -> Result<Self, InvalidValues> {
-        let velocity = scales.per_unit(Quantity::Velocity);
+    /// Numbers that are out of their bounds there.
+    pub fn in_units(&self, unit: &UnitValues) -> Result<Self, InvalidValues> {
+        let velocity = unit.velocity;
         match self {
             Self::Expression(law) => {
                 Ok(Self::Expression(law.in_unit(velocity * law.velocity_unit())))
@@ -333,10 +333,9 @@ impl Friction {
             law => {
                 let (kind, values) = (law.kind(), law.values());
                 let numbers = kind.parameters().iter().zip(values);
-                let in_si = |(parameter, value): (&Parameter, f64)| {
-                    scales.to_units(parameter.quantity, value)
-                };
-                kind.build(&numbers.map(in_si).collect::<Vec<f64>>())
+                let scaled =
+                    |(parameter, value): (&Parameter, f64)| value * unit.of_law(parameter.quantity);
+                kind.build(&numbers.map(scaled).collect::<Vec<f64>>())
             }
         }
     }

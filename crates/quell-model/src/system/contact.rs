@@ -14,7 +14,8 @@ use crate::profile::Profile;
 /// A load over time takes the place of N₀ in both: what presses the contact on balances it at every moment, so that a run follows the
 /// studies whose constant load is that of the moment. An oscillation that the structure shall take is an input to the load.
 ///
-/// A contact without a tangent slips at γ = v; one without a normal has a prescribed load.
+/// A contact without a tangent slips at γ = v; one without a normal has a prescribed load, and its normal stiffness is then only that
+/// through which an actuator modulates the load.
 ///
 /// A contact has a state of its own if a tangential stiffness precedes its slip (an elastic slider), or if its law has one
 /// ([`Friction::bristles`]): see [`Contact::has_state`].

@@ -13,6 +13,7 @@
 //! [`Disc::system`]: crate::Disc::system
 
 mod contact;
+mod in_units;
 mod input;
 mod layout;
 mod mass;

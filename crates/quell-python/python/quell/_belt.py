@@ -232,6 +232,9 @@ class Belt(Study):
         v₀ ≥ 0: a length per τ. In SI ``belt_velocity_m_per_s``, in m/s.
     tangential_stiffness :
         k_t/k > 0 of a contact that adheres elastically before it slips. In SI ``tangential_stiffness_n_per_m``, in N/m [default: rigid].
+    normal_stiffness :
+        k_n/k > 0 of the contact, through which an actuator gives normal dither. In SI ``normal_stiffness_n_per_m``, in N/m [default: the
+        load is prescribed].
     drive, load :
         Velocity of the belt and normal load over time: a :class:`Profile` with ``velocity`` or ``load``, instead of
         ``belt_velocity`` and ``normal_load`` or, as an oscillation, added to them.
@@ -287,6 +290,7 @@ class Belt(Study):
     normal_load: float | None
     belt_velocity: float | None
     tangential_stiffness: float | None
+    normal_stiffness: float | None
     mass: float | None
     stiffness: float | None
     natural_frequency: float | None
@@ -298,6 +302,7 @@ class Belt(Study):
     normal_force_n: float | None
     belt_velocity_m_per_s: float | None
     tangential_stiffness_n_per_m: float | None
+    normal_stiffness_n_per_m: float | None
     drive: Any
     load: Any
 
@@ -310,6 +315,7 @@ class Belt(Study):
         normal_load: Number | None = None,
         belt_velocity: Number | None = None,
         tangential_stiffness: Number | None = None,
+        normal_stiffness: Number | None = None,
         friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
         initial: Literal["rest", "sliding", "squealing"] | tuple[float, float] | Initial | None = None,
@@ -329,6 +335,7 @@ class Belt(Study):
         normal_force_n: Number | None = None,
         belt_velocity_m_per_s: Number | None = None,
         tangential_stiffness_n_per_m: Number | None = None,
+        normal_stiffness_n_per_m: Number | None = None,
         drive: Profile | Mapping[str, Any] | None = None,
         load: Profile | Mapping[str, Any] | None = None,
         design: Mapping[str, Any] | None = None,

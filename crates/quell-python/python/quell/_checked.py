@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeVar
 
 from . import _toml
 from ._arguments import Arguments, changes_of, keywords
@@ -17,6 +18,7 @@ from ._tables import Number, Table
 
 if TYPE_CHECKING:
     from ._study import Study
+    from ._system import System
 
 __all__ = ["CheckedStudy"]
 
@@ -140,6 +142,43 @@ class CheckedStudy(Frozen):
         study._keep(_earlier=self._native)
         study._build(**document)
         return study
+
+    @keywords
+    def convert(self, *, to: Literal["system"] = "system") -> System:
+        """Returns the study of a belt or a disc as that of a system, with the numbers of its equations.
+
+        A belt keeps its own keys under the names of a system; a disc is written by its modes in the frame of its loads, in SI where its
+        material, size and speed are known. :meth:`to_toml` writes it to a file.
+
+        Parameters
+        ----------
+        to :
+            Kind of the study.
+
+        Raises
+        ------
+        quell.StudyError
+            A study of a system; a disc that varies in time, or whose friction is a formula or a measured curve.
+
+        Warns
+        -----
+        UserWarning
+            Tables for which a system has no place were left out.
+
+        Examples
+        --------
+        >>> belt = quell.Belt(damping_ratio=0.01, normal_load=1, belt_velocity=0.1, friction=quell.Coulomb(0.3))
+        >>> belt.convert().stability().verdict == belt.stability().verdict
+        True
+        """
+        from ._system import System
+
+        if to != "system":
+            raise StudyError([complaint("to", to, '"system"')])
+        native, left_out = self._native.converted()
+        for words in left_out:
+            warnings.warn(words, stacklevel=3)
+        return System._of(native)
 
     def _arguments(self) -> dict[str, Any]:
         """The arguments of the class that give this study."""

@@ -164,7 +164,7 @@ impl DrivenSize {
             None
         };
         let actuator = actuator?;
-        let of_unit = point.and_then(|point| Ok(self.of_unit(&actuator.demand(&point))?));
+        let of_unit = point.and_then(|point| Ok(self.of_unit(&actuator.demand(&point)?)?));
         match of_unit {
             Ok(of_unit) => {
                 let amplitude = self.value / of_unit;

@@ -42,10 +42,6 @@ pub(super) fn misplaced(name: &str, kind: DocumentKind) -> Option<(Fault, String
     let key = vocabulary::keys().iter().find(|key| {
         key.section == Section::Root && key.name == name && !key.scope.includes(kind)
     })?;
-    if key.role == Role::Table(Section::Actuator) {
-        let allowed = "[actuator] is implemented for belts and systems: the dither of a disc modulates its friction";
-        return Some((Fault::NotBuilt, allowed.to_owned()));
-    }
     if key.role == Role::Table(Section::Solver) {
         let allowed = "[solver] belongs to a study of a belt, with [belt]: every step of systems and discs is accurate to rounding";
         return Some((Fault::Conflict, allowed.to_owned()));

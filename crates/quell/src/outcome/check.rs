@@ -209,6 +209,11 @@ fn disc_table(study: &DiscStudy) -> String {
         );
         table.word("dither", &words);
     }
+    for given in study.given_sizes() {
+        let words =
+            format!("{} of the load from {}", figure(given.amplitude), size_in_words(given, ""));
+        table.word("amplitude", &words);
+    }
     let without = study.without();
     if !without.is_empty() {
         table.word("without", &without.join(", "));

@@ -86,27 +86,24 @@ impl Presented<SystemSetup> for MeasuredResponse {
             );
         }
         for (index, cost) in self.response.dithered.inputs.iter().enumerate() {
-            let cost = match cost {
-                Ok(cost) => {
-                    let in_series = match &cost.in_series {
-                        Some(Ok(series)) => format!(
-                            "; actuator in series with the contact: power {}, stroke {}",
-                            with(Quantity::Power, series.power),
-                            with(Quantity::Displacement, series.stroke)
-                        ),
-                        Some(Err(why)) => {
-                            format!("; actuator in series with the contact unknown: {why}")
-                        }
-                        None => String::new(),
-                    };
-                    format!(
-                        "power {}, stroke {}{in_series}",
-                        with(Quantity::Power, cost.power),
-                        with(Quantity::Displacement, cost.stroke)
-                    )
-                }
+            let in_series = match &cost.in_series {
+                Some(Ok(series)) => format!(
+                    "; actuator in series with the contact: power {}, stroke {}",
+                    with(Quantity::Power, series.power),
+                    with(Quantity::Displacement, series.stroke)
+                ),
+                Some(Err(why)) => format!("; actuator in series with the contact unknown: {why}"),
+                None => String::new(),
+            };
+            let fed = match &cost.fed {
+                Ok(fed) => format!(
+                    "power {}, stroke {}",
+                    with(Quantity::Power, fed.power),
+                    with(Quantity::Displacement, fed.stroke)
+                ),
                 Err(why) => format!("power unknown: {}", why.why()),
             };
+            let cost = fed + &in_series;
             let _ = writeln!(text, "  dither[{index}]: {cost}");
         }
         text

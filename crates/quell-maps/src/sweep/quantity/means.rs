@@ -1,6 +1,6 @@
 //! Means over a period of the steady response, and what the dither costs.
 
-use quell_dynamics::motion::InputCost;
+use quell_dynamics::motion::FedCost;
 use quell_model::system::InputTarget;
 use quell_model::units::Quantity;
 
@@ -56,8 +56,8 @@ impl Means {
         let record = &found.dithered;
         let inputs = record.inputs.iter().zip(&study.system().inputs);
         let tangential = inputs.filter(|(_, input)| matches!(input.target, InputTarget::Force(_)));
-        let costs: Vec<&InputCost> =
-            tangential.filter_map(|(cost, _)| cost.as_ref().ok()).collect();
+        let costs: Vec<&FedCost> =
+            tangential.filter_map(|(cost, _)| cost.fed.as_ref().ok()).collect();
         let strokes = costs.iter().map(|cost| cost.stroke);
         let stroke = strokes.max_by(f64::total_cmp);
         let power = costs.iter().map(|cost| cost.power).sum();

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -15,6 +17,22 @@ if TYPE_CHECKING:
     from .._study import Study
 
 Verdict = Literal["stable", "unstable", "undecided"]
+
+
+def written(
+    result: Result, modes: Iterable[tuple[complex, Sequence[complex]]], path: str | os.PathLike[str], overwrite: bool
+) -> str:
+    """The modes of a result in a universal file."""
+    from .._errors import StudyError, complaint
+    from ..fe._uff_write import WrittenMode, write_modes
+
+    facts = result.study.check().facts
+    if "coordinates" not in facts:
+        allowed = "a study of a system or a belt: the modes of a disc have no nodes; Study.convert writes it as a system"
+        raise StudyError([complaint("to_universal_file", None, allowed, "usage")])
+    head = (result.study.title or "", str(facts.get("unit_system", "none")))
+    found = [WrittenMode(rate, shape) for rate, shape in modes]
+    return write_modes(path, head, facts["coordinates"], found, overwrite)
 
 
 class Check(Result):
@@ -453,6 +471,26 @@ class Stability(Result):
         """System: the eigenvalues (n,), those with the largest growth rate first."""
         return numbers_of(self._named("eigenvalues"))
 
+    def to_universal_file(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> str:
+        """Writes the small motions of a system, friction carried along, as complex modes: data set 55 of a universal file.
+
+        Coordinates that are named by node and direction (``n1204_x``) keep both; others become the x of nodes of their own, which the
+        file names. Eigenvalues are λ with e^λt; modal A and B are left at 0, and shapes have the largest entry 1. Six digits are kept.
+
+        Returns
+        -------
+        str
+            The path.
+
+        Raises
+        ------
+        quell.StudyError
+            A study of a disc; the file exists, or cannot be written.
+        """
+        shapes = [[complex(*entry) for entry in it["shape"]] for it in self.motions]
+        rates = [complex(it["growth_rate"], it["frequency"]) for it in self.motions]
+        return written(self, zip(rates, shapes, strict=True), path, overwrite)
+
 
 class TrackedStability(Result):
     """Eigenvalues of a system over a parameter, and its thresholds.
@@ -551,6 +589,17 @@ class Modes(Result):
     """Disc: the mode with the lowest critical speed."""
     coordinates: list[str]
     """System: names of the coordinates of the shapes."""
+
+    def to_universal_file(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> str:
+        """Writes the modes of a system as complex ones: see :meth:`Stability.to_universal_file`."""
+        shapes = [
+            [complex(a, b) for a, b in zip(it["shape"], it.get("shape_imaginary", [0.0] * len(it["shape"])), strict=True)]
+            for it in self.modes
+        ]
+        sizes = [(it["frequency"], it["damping_ratio"]) for it in self.modes]
+        rates = [complex(-ratio * size, size * max(0.0, 1.0 - ratio**2) ** 0.5) for size, ratio in sizes]
+        return written(self, zip(rates, shapes, strict=True), path, overwrite)
+
     reference_frequency: float
     """Disc: frequency parameter k² of ω_ref."""
     reference: float | None

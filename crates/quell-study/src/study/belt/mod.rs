@@ -113,6 +113,7 @@ impl BeltSetup {
         let actuator = actuator::read(reader, document);
         reader.set_scale(scale);
         let initial = belt.initial.take();
+        table::spring_has_dither(reader, document, dithers.as_deref());
         table::slider_has_one_state(reader, document, friction.as_ref());
         let belt = build(reader, belt, friction, dithers)?.in_si(reader.known_scales());
         let run = BeltRun {
@@ -182,7 +183,7 @@ fn build(
         (number(table.damping_ratio), number(table.normal_load), number(table.belt_velocity));
     // That a law with a state has none is reported with the key.
     let stiffness = table.tangential_stiffness.filter(|_| law.bristles().is_none());
-    let BeltTable { drive, load: loads, courses_are_right, .. } = table;
+    let BeltTable { drive, load: loads, normal_stiffness, courses_are_right, .. } = table;
     let whole = Belt::new(damping, load, velocity, law, dithers);
     let driven = whole.and_then(|belt| match drive {
         Some(drive) => belt.driven(drive.profile(velocity)),
@@ -192,7 +193,8 @@ fn build(
         Some(loads) => belt.loaded(loads.profile(load)),
         None => Ok(belt),
     });
-    match loaded.and_then(|belt| belt.with_tangential_stiffness(stiffness)) {
+    let sprung = loaded.and_then(|belt| belt.with_normal_stiffness(normal_stiffness));
+    match sprung.and_then(|belt| belt.with_tangential_stiffness(stiffness)) {
         Ok(belt) => (known && courses_are_right).then_some(belt),
         Err(invalid) => {
             // With units the normal load is reported in newtons.

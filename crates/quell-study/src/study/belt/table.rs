@@ -4,10 +4,10 @@ use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table};
 use quell_model::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, NORMAL_LOAD,
-    TANGENTIAL_STIFFNESS,
+    NORMAL_STIFFNESS, TANGENTIAL_STIFFNESS,
 };
 use quell_model::units::Quantity;
-use quell_model::{Friction, LawKind};
+use quell_model::{Direction, Dither, Friction, LawKind};
 use serde_json::Value as Json;
 
 use crate::study::course::{Course, CoursePlace, no_constant, replaces_constant};
@@ -24,6 +24,8 @@ pub(super) struct BeltTable {
     pub(super) belt_velocity: Option<f64>,
     /// Absent of a rigid contact.
     pub(super) tangential_stiffness: Option<f64>,
+    /// Absent where the load is prescribed.
+    pub(super) normal_stiffness: Option<f64>,
     /// Where runs begin, displacement and velocity in numbers of the equations.
     pub(super) initial: Option<SystemStart>,
     /// Velocity and load over time, where they are given.
@@ -81,10 +83,13 @@ fn numbers(reader: &mut Reader, (node, table): (&Node, &Table), in_newtons: bool
         Found::Value(load) => Some(load),
         Found::Wrong => None,
     };
-    let tangential_stiffness = match reader.optional(table, "belt", TANGENTIAL_STIFFNESS) {
-        Found::Value(stiffness) => Some(stiffness),
-        Found::Absent | Found::Wrong => None,
-    };
+    let [tangential_stiffness, normal_stiffness] =
+        [TANGENTIAL_STIFFNESS, NORMAL_STIFFNESS].map(|stiffness| {
+            match reader.optional(table, "belt", stiffness) {
+                Found::Value(stiffness) => Some(stiffness),
+                Found::Absent | Found::Wrong => None,
+            }
+        });
     let initial = match table.get("initial") {
         Some(node) => initial(reader, node),
         None => Some(SystemStart::Rest),
@@ -96,6 +101,7 @@ fn numbers(reader: &mut Reader, (node, table): (&Node, &Table), in_newtons: bool
         normal_load,
         belt_velocity,
         tangential_stiffness,
+        normal_stiffness,
         initial,
         drive,
         load,
@@ -120,6 +126,20 @@ pub(super) fn slider_has_one_state(reader: &mut Reader, root: &Table, law: Optio
             node.given(),
             one_state(LawKind::Lugre),
         ));
+    }
+}
+
+/// Reports a normal stiffness without normal dither: the load is prescribed, so that it would change nothing.
+pub(super) fn spring_has_dither(reader: &mut Reader, root: &Table, dithers: Option<&[Dither]>) {
+    let Some(table) = root.get("belt").and_then(Node::table) else { return };
+    let given = NORMAL_STIFFNESS.keys().find_map(|name| Some((name, table.get(name)?)));
+    let is_normal = |dither: &Dither| dither.direction == Direction::Normal;
+    let (Some((name, node)), Some(dithers)) = (given, dithers) else { return };
+    if !dithers.iter().any(is_normal) {
+        let (key, given) = (format!("belt.{name}"), node.given());
+        let allowed = "left out, or normal dither, whose actuator acts through it: the mass of a belt does not move in the normal \
+                       direction";
+        reader.complain(Complaint::new(Fault::Conflict, key, node.origin, given, allowed));
     }
 }
 

@@ -8,6 +8,7 @@
 mod body;
 mod carriers;
 mod dither;
+mod driven;
 mod law;
 mod loads;
 mod modes;
@@ -18,17 +19,19 @@ mod template;
 
 use std::sync::Arc;
 
+use quell_design::actuator::Actuator;
 use quell_disc::plate::PlateMaterial;
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::Table;
 use quell_model::disc::{Contribution, Contributions, DiscDither};
 use quell_model::parameter::disc::LOAD_SLIP_RATIO;
-use quell_model::units::{DiscScales, measure};
-use quell_model::{Disc, System};
+use quell_model::units::{DiscScales, UnitSystem, measure};
+use quell_model::{Disc, InvalidValues, System};
 
 use super::StudyOf;
 use super::address::units_of;
 use super::design::{self, Design, DesignContext};
+use super::dither_size::GivenSize;
 use super::path;
 use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
@@ -40,6 +43,8 @@ pub use modes::{Listed, ModeSource};
 pub use plate::PlateModes;
 
 use body::Body;
+use dither::ReadDiscDither;
+use driven::DiscActuator;
 
 /// A checked study of a disc.
 pub type DiscStudy = StudyOf<DiscSetup>;
@@ -52,6 +57,8 @@ pub struct DiscSetup {
     plate: Arc<PlateSetup>,
     /// The design that is asked for.
     design: Option<Design>,
+    /// The actuator that gives the dither.
+    driven: Option<DiscActuator>,
 }
 
 /// The parts that most points of a map share.
@@ -80,10 +87,12 @@ impl StudyKind for DiscSetup {
         let dither = dither::read(reader, document);
         let read = read.flatten();
         let law = law::read(reader, document, read.as_ref());
-        let waveform = dither.as_ref().map(|(_, shape)| &shape.waveform);
+        let waveform = dither.as_ref().map(|read| &read.shape.waveform);
         let design =
             design::read(reader, document, DesignContext { waveform, document, places: &[] });
-        let (body, (dither, shape), law, design) = (read?, dither?, law?, design?);
+        let actuator = driven::read(reader, document);
+        let (body, read, law, design, actuator) = (read?, dither?, law?, design?, actuator?);
+        let ReadDiscDither { dither, shape, driven: size } = read;
         let shaken = body.loads.iter().find_map(|load| load.slip_ratio);
         if let Some(ratio) = shaken.filter(|_| !matches!(dither, DiscDither::Tangential { .. })) {
             let allowed = "only with tangential dither, whose force it determines";
@@ -107,12 +116,18 @@ impl StudyKind for DiscSetup {
             None => Ok(disc),
         });
         match disc {
-            Ok(disc) => Some(Self {
-                disc: disc.in_si(scales.disc, scales.outer_radius_m),
-                parts,
-                plate: Arc::new(PlateSetup { source, material, radii, warnings }),
-                design,
-            }),
+            Ok(disc) => {
+                let disc = disc.in_si(scales.disc, scales.outer_radius_m);
+                let (disc, driven) = match actuator {
+                    Some(actuator) => {
+                        let (disc, driven) = driven::driven(reader, disc, parts, actuator, size)?;
+                        (disc, Some(driven))
+                    }
+                    None => (disc, None),
+                };
+                let plate = Arc::new(PlateSetup { source, material, radii, warnings });
+                Some(Self { disc, parts, plate, design, driven })
+            }
             Err(invalid) => {
                 // The reader knows where most numbers were written; the others are reported by key alone.
                 reader.adopt(invalid.clone());
@@ -144,8 +159,16 @@ impl DiscSetup {
         self.disc.system_of(self.parts)
     }
 
+    /// The equations in SI, or scaled where the scales of the disc are not known.
+    pub(super) fn in_si(&self) -> Result<(System, UnitSystem), InvalidValues> {
+        match self.disc.system_in_si(self.parts) {
+            Some(system) => Ok((system?, UnitSystem::Si)),
+            None => Ok((self.equations(), UnitSystem::None)),
+        }
+    }
+
     /// The row of the deflection under the first load; of the first coordinate where there is no load.
-    fn observed_row(&self) -> Vec<f64> {
+    pub(super) fn observed_row(&self) -> Vec<f64> {
         if self.disc.loads().is_empty() {
             return (0..self.disc.coordinates()).map(|index| f64::from(index == 0)).collect();
         }
@@ -162,6 +185,16 @@ impl DiscStudy {
     /// The design that the study asks for.
     pub fn design(&self) -> Option<&Design> {
         self.kind().design.as_ref()
+    }
+
+    /// The actuator that gives the dither, in SI.
+    pub fn actuator(&self) -> Option<&Actuator> {
+        self.kind().driven.as_ref().map(|driven| &driven.actuator)
+    }
+
+    /// The amplitude that the study gives by what its actuator takes.
+    pub fn given_sizes(&self) -> &[GivenSize] {
+        self.kind().driven.as_ref().map_or(&[], |driven| &driven.sizes)
     }
 
     /// The disc as the system of its modes, whose runs begin there.

@@ -34,6 +34,8 @@ pub(super) struct ContactContext<'a> {
     pub(super) measured: bool,
     /// The law of contacts without one of their own.
     pub(super) shared: Option<&'a Node>,
+    /// Names of the contacts whose load a dither modulates.
+    pub(super) modulated: &'a [String],
 }
 
 /// What a contact is read by in addition to its own table.
@@ -42,6 +44,7 @@ struct ContactSurroundings {
     first_order: bool,
     measured: bool,
     shared: Option<Table>,
+    modulated: bool,
 }
 
 impl PartialEq for ContactSurroundings {
@@ -50,8 +53,8 @@ impl PartialEq for ContactSurroundings {
             (Some(own), Some(other)) => own.is_same(other),
             (own, other) => own.is_none() && other.is_none(),
         };
-        let own = (&self.basis, self.first_order, self.measured);
-        shared && own == (&other.basis, other.first_order, other.measured)
+        let own = (&self.basis, self.first_order, self.measured, self.modulated);
+        shared && own == (&other.basis, other.first_order, other.measured, other.modulated)
     }
 }
 
@@ -133,9 +136,12 @@ pub(super) fn read(
                 first_order: context.first_order,
                 measured: context.measured,
                 shared: shared.cloned(),
+                modulated: name.as_ref().is_some_and(|name| context.modulated.contains(name)),
             };
-            let read = reader
-                .part(table, around, |reader| one(reader, table, node, &prefix, index, context))?;
+            let modulated = around.modulated;
+            let read = reader.part(table, around, |reader| {
+                one(reader, (table, node), (&prefix, index), modulated, context)
+            })?;
             let contact = Contact { name: name.unwrap_or_default(), ..read.contact };
             Some(ReadContact { contact, ..read })
         })
@@ -185,10 +191,9 @@ fn name(
 
 fn one(
     reader: &mut Reader,
-    table: &Table,
-    node: &Node,
-    prefix: &str,
-    index: usize,
+    (table, node): (&Table, &Node),
+    (prefix, index): (&str, usize),
+    modulated: bool,
     context: ContactContext<'_>,
 ) -> Option<ReadContact> {
     reader.unknown_keys(table, Section::Contact, prefix);
@@ -210,7 +215,9 @@ fn one(
     let mut number = |parameter| reader.optional(table, prefix, parameter).if_given();
     let (stiffness, damping) = (number(CONTACT_NORMAL_STIFFNESS), number(CONTACT_NORMAL_DAMPING));
     let spring = number(CONTACT_TANGENTIAL_STIFFNESS);
-    without_normal(reader, table, prefix, &["normal_stiffness", "normal_damping"]);
+    if !modulated {
+        without_normal(reader, table, prefix, &["normal_stiffness", "normal_damping"]);
+    }
     let known = load.as_ref().and_then(Option::as_ref).map(|load| load.value(0.0));
     let law = law(reader, table, node, prefix, (tangent.is_none(), known), context);
     if !rows_are_right {
@@ -340,7 +347,8 @@ fn without_normal(reader: &mut Reader, table: &Table, prefix: &str, names: &[&st
         if compliant && !has_normal && node.value != Value::Number(0.0) {
             let key = join(prefix, name);
             let allowed = format!(
-                "requires the row {}: without it the load is prescribed",
+                "requires the row {}, or a dither of the load (direction = \"normal\"), whose actuator acts through it: without them the \
+                 load is prescribed",
                 join(prefix, "normal")
             );
             reader.complain(Complaint::new(

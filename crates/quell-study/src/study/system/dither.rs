@@ -87,9 +87,23 @@ pub(super) fn read(
     one_mean(reader, &tables, &inputs);
     let whole: Option<Vec<Input>> = inputs.iter().cloned().collect();
     if let Some(contacts) = context.contacts {
-        stays_pressed(reader, &tables, &inputs, contacts);
+        stays_pressed(reader, &tables, &inputs, (contacts, context.basis.names.len()));
     }
     whole.zip(sizes.into_iter().collect())
+}
+
+/// Names of the contacts whose load a dither modulates.
+pub(super) fn modulated(document: &Table) -> Vec<String> {
+    let entries = document.get("dither").map_or(&[][..], Node::entries);
+    let word = |table: &Table, key: &str| match table.get(key).map(|node| &node.value) {
+        Some(Value::Text(word)) => Some(word.clone()),
+        _ => None,
+    };
+    let normal = entries
+        .iter()
+        .filter_map(Node::table)
+        .filter(|table| word(table, "direction").as_deref() == Some("normal"));
+    normal.filter_map(|table| word(table, "contact")).collect()
 }
 
 /// The places of `[design]`, of which each says where the dither acts as its own table would; `None` if one is wrong.
@@ -399,8 +413,11 @@ fn stays_pressed(
     reader: &mut Reader,
     tables: &[(String, &Node, &Table)],
     inputs: &[Option<Input>],
-    contacts: &[Contact],
+    (contacts, coordinates): (&[Contact], usize),
 ) {
+    // The engine of one mass takes a load that touches zero.
+    let may_touch = contacts.len() == 1 && coordinates == 1;
+    let few = if may_touch { "at most" } else { "less than" };
     for (index, contact) in
         contacts.iter().enumerate().filter(|(_, contact)| contact.normal.is_none())
     {
@@ -416,7 +433,9 @@ fn stays_pressed(
                 last = Some(table);
             }
         }
-        let Some((prefix, _, table)) = last.filter(|_| peaks >= contact.load().bounds().0) else {
+        let least = contact.load().bounds().0;
+        let is_too_much = peaks > least || (peaks == least && !may_touch);
+        let Some((prefix, _, table)) = last.filter(|_| is_too_much) else {
             continue;
         };
         let twins = DITHER_AMPLITUDE.si.iter().map(|twin| twin.key);
@@ -428,10 +447,9 @@ fn stays_pressed(
             .find_map(|name| Some((join(prefix, name), table.get(name)?)));
         if let Some((key, node)) = written {
             let allowed = format!(
-                "such that the peaks on contact {} sum to less than its load {}: they sum to {peaks}, and a prescribed \
+                "such that the peaks on contact {} sum to {few} its load {least}: they sum to {peaks}, and a prescribed \
                  load must stay positive",
-                contact.name,
-                contact.load().bounds().0
+                contact.name
             );
             reader.wrong(&key, node, allowed);
         }

@@ -127,6 +127,7 @@ impl<'t> SystemEquations<'t> {
             first_order,
             measured: response.is_some(),
             shared: document.get("friction"),
+            modulated: &dither::modulated(document),
         };
         let contacts = contact::read(reader, document, context);
         let warnings = contacts.iter().flatten().filter_map(ReadContact::warning).collect();

@@ -177,7 +177,11 @@ fn numbers() -> Vec<Key> {
                 }),
             );
         }
-        keys[first..].iter_mut().for_each(|key| key.scope = key.scope.and(scope));
+        for key in &mut keys[first..] {
+            // What an actuator takes is an amplitude in every kind of study.
+            let is_driven = matches!(key.role, Role::Size(_, size) if size.needs_actuator());
+            key.scope = if is_driven { key.scope } else { key.scope.and(scope) };
+        }
     }
     keys
 }

@@ -242,11 +242,9 @@ impl Section {
             | Self::Contact
             | Self::Parameters
             | Self::DitherPlace => KeyScope::SYSTEM,
-            Self::Drive
-            | Self::DriveOscillation
-            | Self::Load
-            | Self::LoadOscillation
-            | Self::Actuator => KeyScope::BELT_OR_SYSTEM,
+            Self::Drive | Self::DriveOscillation | Self::Load | Self::LoadOscillation => {
+                KeyScope::BELT_OR_SYSTEM
+            }
             Self::Root
             | Self::Friction
             | Self::Constants
@@ -254,6 +252,7 @@ impl Section {
             | Self::Envelope
             | Self::Design
             | Self::DesignLimits
+            | Self::Actuator
             | Self::Uncertainty
             | Self::Sweep => KeyScope::EVERY,
         }

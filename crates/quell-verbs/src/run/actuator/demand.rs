@@ -25,12 +25,20 @@ pub(crate) fn warnings_about_actuator(actuator: &Actuator, demand: &ActuatorDema
         _ => Some(format!("{} times", digits(change))),
     };
     let changed = times.map(|times| {
+        if demand.in_series {
+            return format!(
+                "the spring of the actuator, in series with the contact, takes {} % of its normal stiffness, and the verdicts are about the \
+                 structure with all of it: where no controller holds the load, give the stiffness of both in series",
+                digits(100.0 * change)
+            );
+        }
         format!(
             "the spring or the mass of the actuator is {times} that of the structure there, and the verdicts are about the structure \
              without it: where no controller holds the force, add both to the structure and omit them in [actuator]"
         )
     });
-    let free = matches!(actuator, Actuator::Piezo(stack) if stack.stiffness == 0.0);
+    let is_free = matches!(actuator, Actuator::Piezo(stack) if stack.stiffness == 0.0);
+    let free = is_free && !demand.in_series;
     let free = free.then(|| {
         "[actuator] has neither free_stroke nor stiffness: the spring of the stack must be part of the structure".to_owned()
     });

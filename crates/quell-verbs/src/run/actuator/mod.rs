@@ -12,6 +12,7 @@ mod rating;
 use quell_design::NoAnswer;
 use quell_design::actuator::{Actuator, ActuatorAtFrequency, ActuatorCoverage, coverage};
 use quell_design::least_dither::{DesignStart, OperatingPoint, Plant, SystemPlant};
+use quell_linear::growth::Verdict;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
 use quell_model::parameter::BELT_VELOCITY;
@@ -94,13 +95,16 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFou
         }))
     };
     let plant = SystemPlant { at: &with, input, observe: &[], start: DesignStart::Local };
+    // Without any dither steady sliding does not depend on the frequency of one.
+    let is_only = system.waves().count() == 1;
+    let is_stable = is_only && found.growth.verdict() == Verdict::Stable;
     let at = |frequency: f64| {
         let place = OperatingPoint { point: &[], others: &[frequency] };
         ActuatorAtFrequency {
             frequency,
             demand: plant.demand(place, actuator),
             slips: plant.slip_amplitudes(place),
-            needed: plant.least_averaged(place),
+            needed: if is_stable { Ok(0.0) } else { plant.least_averaged(place) },
         }
     };
     let slow = slowest_to_decay(&found);

@@ -15,7 +15,7 @@ pub(crate) fn beyond_actuator(study: &SystemStudy) -> Option<String> {
     let linear = Linearised::new(system).ok()?;
     let (waveform, frequency) = (&wave.waveform, wave.frequency);
     let point = DrivenPoint::of_input(system, &linear, &input.target, waveform, frequency).ok()?;
-    let demand = actuator.demand(&point).at(wave.amplitude);
+    let demand = actuator.demand(&point).ok()?.at(wave.amplitude);
     let (limit, used) = demand.tightest().ok().filter(|(_, used)| *used > 1.0)?;
     Some(format!(
         "the dither of this study demands {} times what the actuator can give, by the {}",

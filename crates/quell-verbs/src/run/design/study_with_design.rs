@@ -211,9 +211,8 @@ impl StudyWithDesign for DiscStudy {
         self.uncertainty()
     }
 
-    /// The dither of a disc varies its friction; no actuator of it is described.
     fn actuator(&self) -> Option<&Actuator> {
-        None
+        self.actuator()
     }
 
     fn asked(&self) -> Option<&Design> {

@@ -1,6 +1,6 @@
 //! The steady response as JSON and as datasets.
 
-use quell_dynamics::motion::{ContactMeans, InputCost, SeriesCost};
+use quell_dynamics::motion::{ContactMeans, FedCost, SeriesCost};
 use quell_dynamics::response::{Effect, PEAK_FLOOR, SettledRecord, SystemEnding};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -145,8 +145,8 @@ fn put_record(fields: &mut Fields, prefix: &str, record: &SettledRecord) {
 fn put_inputs(units: UnitSystem, record: &SettledRecord) -> Vec<Fields> {
     let inputs = record.inputs.iter().map(|cost| {
         let mut inner = Fields::in_units(units);
-        let of = |pick: fn(&InputCost) -> f64| {
-            cost.as_ref().map(pick).map_err(|why| why.why().to_owned())
+        let of = |pick: fn(&FedCost) -> f64| {
+            cost.fed.as_ref().map(pick).map_err(|why| why.why().to_owned())
         };
         inner.known("power", Quantity::Power, of(|cost| cost.power)).known(
             "stroke",
@@ -154,7 +154,6 @@ fn put_inputs(units: UnitSystem, record: &SettledRecord) -> Vec<Fields> {
             of(|cost| cost.stroke),
         );
         let in_series = |pick: fn(&SeriesCost) -> f64| {
-            let cost = cost.as_ref().map_err(|why| why.why().to_owned())?;
             let force = "a force on coordinates has no spring of a contact to act through";
             let series = cost.in_series.as_ref().ok_or_else(|| force.to_owned())?;
             series.as_ref().map(pick).map_err(ToString::to_string)

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use quell_dynamics::attractor::MotionKind;
-use quell_dynamics::motion::InputCost;
+use quell_dynamics::motion::FedCost;
 use quell_dynamics::response::{
     Effect, ResponsePlan, ResponseRefused, SettledRecord, SteadyResponse, SystemEnding, Uncertain,
     Undefined, respond, vibration_frequency,
@@ -356,19 +356,25 @@ impl MeasuredResponse {
         let several = self.response.dithered.inputs.len() > 1;
         let inputs = self.response.dithered.inputs.iter().enumerate();
         let costs = inputs.filter_map(|(index, cost)| {
-            let InputCost { power, stroke, in_series } = cost.ok()?;
+            let of = if several { format!(" at dither[{index}]") } else { String::new() };
+            let series = cost.in_series.and_then(Result::ok).map(|cost| {
+                let power = self.power_in_words(study, cost.power);
+                let stroke = in_units(units, Quantity::Displacement, cost.stroke);
+                format!("{power} with a stroke of {stroke}")
+            });
+            let Ok(FedCost { power, stroke }) = cost.fed else {
+                let series = series?;
+                return Some(format!(
+                    "An actuator in series with the spring of the contact delivers{of} the mean power {series}."
+                ));
+            };
             let does = if power < 0.0 { "returns" } else { "takes" };
             let power = self.power_in_words(study, power.abs());
             let stroke = in_units(units, Quantity::Displacement, stroke);
-            let of = if several { format!(" at dither[{index}]") } else { String::new() };
-            Some(format!(
-                "The dither {does} the mean power {power} with a stroke of {stroke}{of}{}.",
-                in_series.and_then(Result::ok).map_or(String::new(), |cost| format!(
-                    ", or in series with the spring of the contact {} with a stroke of {}",
-                    in_units(units, Quantity::Power, cost.power),
-                    in_units(units, Quantity::Displacement, cost.stroke)
-                ))
-            ))
+            let series = series.map_or(String::new(), |cost| {
+                format!(", or in series with the spring of the contact {cost}")
+            });
+            Some(format!("The dither {does} the mean power {power} with a stroke of {stroke}{of}{series}."))
         });
         costs.collect()
     }

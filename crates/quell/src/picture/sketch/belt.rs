@@ -1,6 +1,6 @@
 //! The sketch of a mass on a moving belt.
 
-use quell_model::parameter::{Parameter, TANGENTIAL_STIFFNESS};
+use quell_model::parameter::{NORMAL_STIFFNESS, TANGENTIAL_STIFFNESS};
 use quell_model::units::Quantity;
 use quell_model::{Direction, Profile};
 
@@ -191,8 +191,13 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
         over_time(letters.velocity, Quantity::Velocity, belt.belt_velocity(), belt.drive()),
     ];
     friction.extend(law_items(belt.friction(), "$T$", in_words));
-    let Parameter { symbol, quantity, .. } = TANGENTIAL_STIFFNESS;
-    friction.extend(belt.tangential_stiffness().map(|value| equal(symbol, quantity, value)));
+    let springs = [
+        (TANGENTIAL_STIFFNESS, belt.tangential_stiffness()),
+        (NORMAL_STIFFNESS, belt.normal_stiffness()),
+    ];
+    for (spring, value) in springs {
+        friction.extend(value.map(|value| equal(spring.symbol, spring.quantity, value)));
+    }
     let mut sheet =
         sheet.with_key(SketchKey::new("Mass", mass)).with_key(SketchKey::new("Contact", friction));
     let dithers = belt.dithers();

@@ -1,0 +1,194 @@
+//! `quell convert`: a belt or a disc as a system has the equations and the answers of the original.
+
+use std::f64::consts::{SQRT_2, TAU};
+use std::fs;
+
+use serde_json::Value as Json;
+
+use crate::place::Place;
+
+const DISC: &str = r#"
+[disc]
+inner_radius_ratio = 0.5
+poisson_ratio = 0.3
+radial_modes = 1
+nodal_diameters = 3
+modal_damping = 1e-4
+youngs_modulus_pa = 1.95e11
+density_kg_per_m3 = 7700
+thickness_m = 0.021
+outer_radius_m = 0.14
+[disc.load]
+radius_ratio = 0.75
+mass_kg = 0.5
+damping_n_s_per_m = 200
+stiffness_n_per_m = 1e8
+normal_load_n = 4000
+speed_rpm = 60
+[friction]
+law = "coulomb"
+coefficient = 0.4
+[dither]
+direction = "normal"
+waveform = "sine"
+frequency_hz = 20e3
+"#;
+
+const STACK: &str = r#"
+[actuator]
+kind = "piezo"
+blocked_force_n = 7000
+free_stroke_m = 20e-6
+maximum_voltage = 1000
+"#;
+
+/// A stack behind the spring k and the damper d of the load lengthens by u with (k + iωd)u = ΔN, and makes ΔN + k_a u. The disc itself,
+/// which friction pulls along its slope, moves by some 10⁻⁸ of that.
+fn newtons(volts_rms: f64) -> f64 {
+    let (stack, spring, damper) = (7000.0 / 20e-6, 1e8_f64, TAU * 20e3 * 200.0);
+    volts_rms * SQRT_2 * 7.0 * spring.hypot(damper) / (spring + stack).hypot(damper)
+}
+
+#[test]
+fn a_disc_takes_its_dither_in_volts() {
+    let text = format!("{DISC}amplitude_v_rms = 75\n{STACK}");
+    let place = Place::with("disc-in-volts", &[("disc.toml", &text)]);
+    let checked = place.good(&["check", "disc.toml"]);
+    let amplitude = checked["dither"]["amplitude"].as_f64().expect("a number");
+    assert!((amplitude * 4000.0 / newtons(75.0) - 1.0).abs() < 1e-7, "{amplitude}");
+    let words = String::from_utf8_lossy(&place.quell(&["check", "disc.toml"]).stdout).into_owned();
+    assert!(words.contains("from dither.amplitude_v_rms = 75 V, by [actuator]"), "{words}");
+    place.good(&["convert", "disc.toml", "--save", "system.toml"]);
+    let system = place.good(&["check", "system.toml"]);
+    let force = system["dithers"][0]["amplitude"].as_f64().expect("a number");
+    assert!((force / (4000.0 * amplitude) - 1.0).abs() < 1e-12, "{force}");
+    // In the system the same voltage gives the same force.
+    let set = ["check", "system.toml", "--set", "dither.amplitude_v_rms=75"];
+    let again = place.good(&set)["dithers"][0]["amplitude"].as_f64().expect("a number");
+    assert!((again / force - 1.0).abs() < 1e-12, "{again}");
+    let reach = place.good(&["actuator", "disc.toml"]);
+    assert!(reach["ok"] == Json::Bool(true) && reach["units"].is_object(), "{reach}");
+}
+
+#[test]
+fn a_disc_whose_load_is_unknown_takes_no_volts() {
+    let given = DISC
+        .replace("normal_load_n = 4000", "friction_n = 1600")
+        .replace("[friction]\nlaw = \"coulomb\"\ncoefficient = 0.4\n", "");
+    let mut scaled = DISC.to_owned();
+    for (si, plain) in [
+        ("youngs_modulus_pa = 1.95e11", ""),
+        ("density_kg_per_m3 = 7700", ""),
+        ("thickness_m = 0.021", ""),
+        ("outer_radius_m = 0.14", ""),
+        ("mass_kg = 0.5", "mass = 0.1"),
+        ("damping_n_s_per_m = 200", "damping = 0.1"),
+        ("stiffness_n_per_m = 1e8", "stiffness = 0.1"),
+        ("normal_load_n = 4000", "normal_load = 1"),
+        ("speed_rpm = 60", "speed = 0.05"),
+        ("frequency_hz = 20e3", "frequency_ratio = 10"),
+    ] {
+        scaled = scaled.replace(si, plain);
+    }
+    let place = Place::with("disc-without-load", &[]);
+    for (text, words) in [
+        (given.clone(), "normal_load"),
+        (scaled, "SI"),
+        (DISC.replace("\"normal\"", "\"tangential\""), "normal dither"),
+    ] {
+        place.write("disc.toml", format!("{text}amplitude_v = 75\n{STACK}"));
+        let errors = place.refused(&["check", "disc.toml"]);
+        let said =
+            errors.iter().any(|error| error["allowed"].as_str().expect("text").contains(words));
+        assert!(said, "{words}: {errors:?}");
+    }
+    place.write("disc.toml", format!("{DISC}amplitude_v = 75\n"));
+    let errors = place.refused(&["check", "disc.toml"]);
+    assert_eq!(errors[0]["key"], "dither.amplitude_v", "{errors:?}");
+    // Friction that is given as a force does not determine the load of the system.
+    place.write("disc.toml", format!("{given}amplitude = 0.5\n"));
+    let converted = place.good(&["convert", "disc.toml"]);
+    let warnings = converted["warnings"].as_array().expect("a list");
+    assert!(
+        warnings.iter().any(|words| words.as_str().expect("text").contains("only their product")),
+        "{converted}"
+    );
+}
+
+#[test]
+fn a_belt_keeps_what_is_asked_of_it() {
+    let text = r#"
+[belt]
+mass_kg = 0.5
+natural_frequency_hz = 5600
+damping_ratio = 0.005
+normal_force_n = 4000
+belt_velocity_m_per_s = 0.1
+[belt.initial]
+state = "squealing"
+[friction]
+law = "stribeck"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity_m_per_s = 0.5
+[dither]
+direction = "tangential"
+waveform = "sine"
+amplitude_n = 5000
+frequency_hz = 20000
+[solver]
+tolerance = 1e-9
+[[sweep]]
+parameter = "belt.belt_velocity_m_per_s"
+values = [0.05, 0.1]
+[uncertainty]
+"belt.normal_force_n" = { normal = [4000, 100] }
+"friction.static_coefficient" = { normal = [0.4, 0.01] }
+[design]
+minimise = "amplitude"
+vary = ["dither.amplitude_n"]
+from = [10]
+to = [9000]
+[design.over]
+"belt.belt_velocity_m_per_s" = [0.05, 0.1]
+"#;
+    let place = Place::with("convert-asked", &[("belt.toml", text)]);
+    let converted = place.good(&["convert", "belt.toml", "--save", "system.toml"]);
+    assert_eq!(converted["left_out"], serde_json::json!(["[solver]"]));
+    let study = fs::read_to_string(place.folder.join("system.toml")).expect("written");
+    assert_eq!(converted["text"], study);
+    for words in [
+        "parameter = \"contact.belt.belt_velocity_m_per_s\"",
+        "[uncertainty.\"contact.belt.normal_load_n\"]",
+        "\"contact.belt.belt_velocity_m_per_s\" = [0.05, 0.1]",
+        "state = \"squealing\"",
+    ] {
+        assert!(study.contains(words), "{words}: {study}");
+    }
+    place.good(&["check", "system.toml"]);
+    // A damping ratio is no number of the system: what varies it is left out.
+    let varied = text.replace(
+        "\"belt.normal_force_n\" = { normal = [4000, 100] }",
+        "\"belt.damping_ratio\" = { normal = [0.005, 1e-4] }",
+    );
+    place.write("varied.toml", varied);
+    let converted = place.good(&["convert", "varied.toml"]);
+    assert_eq!(converted["left_out"], serde_json::json!(["[uncertainty]", "[solver]"]));
+}
+
+#[test]
+fn nothing_is_written_where_nothing_can_be_converted() {
+    let curve = "slip_velocity,coefficient\n0,0.4\n0.1,0.37\n0.2,0.34\n0.3,0.32\n0.4,0.31\n0.5,0.3\n0.6,0.3\n";
+    let belt = "[belt]\ndamping_ratio = 0.01\nnormal_load = 1\nbelt_velocity = 0.1\n[friction]\nlaw = 'samples'\nfile = 'curve.csv'\n";
+    let place = Place::with("convert-refused", &[("belt.toml", belt), ("curve.csv", curve)]);
+    fs::create_dir(place.folder.join("elsewhere")).expect("a folder");
+    let errors = place.refused(&["convert", "belt.toml", "--save", "elsewhere/system.toml"]);
+    assert_eq!(errors[0]["key"], "--save", "{errors:?}");
+    place.good(&["convert", "belt.toml", "--save", "system.toml"]);
+    place.good(&["check", "system.toml"]);
+    let errors = place.refused(&["convert", "system.toml"]);
+    assert!(errors[0]["allowed"].as_str().expect("text").contains("already"), "{errors:?}");
+    place.refused(&["convert", "belt.toml", "--save", "belt.toml"]);
+    place.refused(&["convert", "belt.toml", "--to", "belt"]);
+    assert_eq!(fs::read_to_string(place.folder.join("belt.toml")).expect("kept"), belt);
+}
