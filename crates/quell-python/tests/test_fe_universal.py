@@ -294,11 +294,12 @@ def test_complex_modes_are_written_and_read_again(tmp_path: Path) -> None:
     modes = [mode_2414(number, value, 2.0, REAL) for number, value in enumerate(hertz, 1)]
     shapes = [[complex(x * (1 + place) ** number) for place, x in enumerate(SHAPE)] for number in range(3)]
     modes = [mode_2414(number + 1, value, 2.0, shape) for number, (value, shape) in enumerate(zip(hertz, shapes, strict=True))]
-    study = quell.from_universal_file(write(tmp_path / "m.unv", *modes), damping_ratio=[0.01, 0.02, 0.03], units="SI", contact=pad()["contact"])
+    contact = pad(f"n{NODES[0]}_x")["contact"]
+    study = quell.from_universal_file(write(tmp_path / "m.unv", *modes), damping_ratio=[0.01, 0.02, 0.03], units="SI", contact=contact)
     path = study.modes().to_universal_file(tmp_path / "out.unv")
     lines = Path(path).read_text().splitlines()
     assert lines[1].strip() == "164" and lines[2].startswith(f"{1:10d}SI")
-    again = quell.from_universal_file(path, modal_mass=[2.0] * 3, units="file", contact=pad()["contact"])
+    again = quell.from_universal_file(path, modal_mass=[2.0] * 3, units="file", contact=contact)
     for mode, value, ratio, shape in zip(again.mode, hertz, [0.01, 0.02, 0.03], shapes, strict=True):
         assert mode.given["frequency"] == pytest.approx(2 * np.pi * value, rel=2e-3)
         assert mode.given["damping_ratio"] == pytest.approx(ratio, rel=0.1)

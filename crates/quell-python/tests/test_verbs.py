@@ -166,7 +166,7 @@ def test_the_answers_are_the_same(verb: str, path: str, options: list[str], call
 
 
 def test_cases_are_of_every_verb_of_a_study() -> None:
-    functions = {"schema", "new", "reproduce", "map", "fit", *DRAWINGS}
+    functions = {"schema", "new", "reproduce", "map", "fit", *DRAWINGS, *CONVERSIONS}
     assert {case[0] for case in CASES} == set(offered()) - functions
 
 

@@ -30,9 +30,43 @@ def written(
     if "coordinates" not in facts:
         allowed = "a study of a system or a belt: the modes of a disc have no nodes; Study.convert writes it as a system"
         raise StudyError([complaint("to_universal_file", None, allowed, "usage")])
+    names, points = points_of(result.study, facts["coordinates"])
     head = (result.study.title or "", str(facts.get("unit_system", "none")))
-    found = [WrittenMode(rate, shape) for rate, shape in modes]
-    return write_modes(path, head, facts["coordinates"], found, overwrite)
+    found = []
+    for rate, own in modes:
+        shape = points @ np.array(own)
+        largest = shape[np.argmax(np.abs(shape))] if shape.size else 0.0
+        found.append(WrittenMode(rate, shape / largest if largest else shape))
+    return write_modes(path, head, names, found, overwrite)
+
+
+def points_of(study: Study, coordinates: list[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
+    """Names of the points of a structure, and the displacement of each for every coordinate."""
+    from .._errors import StudyError, complaint
+
+    document = study._document()
+    system = document.get("system", {})
+    if "mode" not in system and "modes" not in system and "component" not in system:
+        return list(coordinates), np.eye(len(coordinates))
+    if "mode" not in system or "component" in system:
+        allowed = "a structure by coordinates or by [[system.mode]]: the modes of a file and of components are not written with their points"
+        raise StudyError([complaint("to_universal_file", None, allowed, "usage")])
+    modes = system["mode"]
+    names = list(dict.fromkeys(name for mode in modes for name in mode["shape"]))
+    is_scaled = system.get("normalisation") == "max"
+    # The coordinate of a mode has the mass 1.
+    sizes = [float(mode["modal_mass"]) ** -0.5 if is_scaled else 1.0 for mode in modes]
+    columns = [[size * number_of(mode["shape"].get(name, 0.0)) for name in names] for size, mode in zip(sizes, modes, strict=True)]
+    return names, np.array(columns).T
+
+
+def number_of(entry: object) -> float:
+    """An entry of a shape."""
+    from .._errors import StudyError, complaint
+
+    if isinstance(entry, (int, float)):
+        return float(entry)
+    raise StudyError([complaint("to_universal_file", entry, "shapes of numbers, not of formulas", "usage")])
 
 
 class Check(Result):
@@ -593,10 +627,12 @@ class Modes(Result):
     def to_universal_file(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> str:
         """Writes the modes of a system as complex ones: see :meth:`Stability.to_universal_file`."""
         shapes = [
-            [complex(a, b) for a, b in zip(it["shape"], it.get("shape_imaginary", [0.0] * len(it["shape"])), strict=True)]
+            # Discs have shapes of another kind, and are refused.
+            [complex(a, b) for a, b in zip(it["shape"], it["shape_imaginary"], strict=True)]
             for it in self.modes
+            if "shape_imaginary" in it
         ]
-        sizes = [(it["frequency"], it["damping_ratio"]) for it in self.modes]
+        sizes = [(it["frequency"], it["damping_ratio"]) for it in self.modes if "shape_imaginary" in it]
         rates = [complex(-ratio * size, size * max(0.0, 1.0 - ratio**2) ** 0.5) for size, ratio in sizes]
         return written(self, zip(rates, shapes, strict=True), path, overwrite)
 
