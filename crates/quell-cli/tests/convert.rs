@@ -173,7 +173,10 @@ to = [9000]
     );
     place.write("varied.toml", varied);
     let converted = place.good(&["convert", "varied.toml"]);
-    assert_eq!(converted["left_out"], serde_json::json!(["[uncertainty]", "[solver]"]));
+    assert_eq!(
+        converted["left_out"],
+        serde_json::json!(["[uncertainty], by belt.damping_ratio", "[solver]"])
+    );
 }
 
 #[test]
@@ -191,4 +194,49 @@ fn nothing_is_written_where_nothing_can_be_converted() {
     place.refused(&["convert", "belt.toml", "--save", "belt.toml"]);
     place.refused(&["convert", "belt.toml", "--to", "belt"]);
     assert_eq!(fs::read_to_string(place.folder.join("belt.toml")).expect("kept"), belt);
+}
+
+/// A disc at rest under friction that varies: the multipliers of its orbit are the exponents of its series, at any phase of the dither.
+#[test]
+fn orbits_of_discs_have_the_exact_exponents() {
+    let text = "[disc]\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\
+                [disc.load]\nradius_ratio = 0.75\nmass = 0.127\ndamping = 0.127\nstiffness = 0.127\nfriction = 0.4\nspeed = 0.5\n\
+                [dither]\ndirection = 'DIRECTION'\namplitude = 1.0\nfrequency_ratio = 2.7\n";
+    let place = Place::with("disc-orbits", &[]);
+    for direction in ["tangential", "normal"] {
+        place.write("disc.toml", text.replace("DIRECTION", direction));
+        let exact =
+            place.good(&["stability", "disc.toml"])["growth_rate"].as_f64().expect("a rate");
+        place.good(&["convert", "disc.toml", "--save", "system.toml"]);
+        for phase in ["0", "0.7", "1.5707963267948966", "3"] {
+            let set = format!("dither.phase={phase}");
+            let orbit = place.good(&["orbit", "system.toml", "--set", &set]);
+            let [radius, period] =
+                ["radius", "period"].map(|name| orbit[name].as_f64().expect("a number"));
+            let rate = radius.ln() / period;
+            assert!((rate - exact).abs() < 1e-11, "{direction} at {phase}: {rate} against {exact}");
+        }
+    }
+}
+
+/// What the actuator gives is judged as a force would be: an amplitude that lifts the contact is refused at its own key.
+#[test]
+fn volts_that_lift_a_contact_are_refused_at_their_key() {
+    let belt = "[belt]\nmass_kg = 0.5\nnatural_frequency_hz = 5600\ndamping_ratio = 0.005\nnormal_force_n = 4000\n\
+                belt_velocity_m_per_s = 0.1\nnormal_stiffness_n_per_m = 2e8\n[friction]\nlaw = 'coulomb'\ncoefficient = 0.4\n[dither]\n\
+                direction = 'normal'\nwaveform = 'sine'\namplitude_v_rms = 1200\nfrequency_hz = 20e3\n";
+    let system = "[system]\nunits = 'SI'\ncoordinates = ['x', 'y']\nmass = [0.5, 1]\nstiffness = [6e8, 1e8]\n[[contact]]\nname = 'pad'\n\
+                  tangent = { x = 1 }\nnormal_load = 4000\nnormal_stiffness = 2e8\nbelt_velocity = 0.1\n[contact.friction]\n\
+                  law = 'coulomb'\ncoefficient = 0.4\n[[dither]]\ncontact = 'pad'\ndirection = 'normal'\nwaveform = 'sine'\n\
+                  amplitude_v_rms = 1200\nfrequency_hz = 20e3\n";
+    let place = Place::with("volts-that-lift", &[]);
+    for (name, text) in [("belt.toml", belt), ("system.toml", system)] {
+        place.write(name, format!("{text}{STACK}"));
+        let errors = place.refused(&["check", name]);
+        assert_eq!(errors[0]["key"], "dither.amplitude_v_rms", "{errors:?}");
+        assert_eq!(errors[0]["value"], 1200.0, "{errors:?}");
+        let allowed = errors[0]["allowed"].as_str().expect("text");
+        assert!(allowed.contains("load") && allowed.contains("4319.7"), "{name}: {allowed}");
+        place.good(&["check", name, "--set", "dither.amplitude_v_rms=1000"]);
+    }
 }

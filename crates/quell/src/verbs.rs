@@ -91,7 +91,7 @@ impl Verbs {
             if self.disc().is_some() {
                 let convert = Mention::Verb("convert".to_owned());
                 let allowed = complaint.allowed.text("; ").mention(convert);
-                complaint.allowed = allowed.text(" writes it as a system, which has them all");
+                complaint.allowed = allowed.text(" writes it as a system, which can be asked");
             }
         }
         Err(complaint.into())

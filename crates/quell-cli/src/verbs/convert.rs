@@ -15,7 +15,7 @@ use crate::arguments::{Gathered, StudyArguments, inputs};
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// OtherKind of the study that is written
+    /// Kind of the study that is written
     #[arg(long, value_enum, default_value_t = OtherKind::System)]
     to: OtherKind,
     /// Saves the study to a file instead of printing it
@@ -47,6 +47,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let text = converted.study.text();
     let saved = output.map(|output| output.write(text.as_bytes())).transpose()?;
     let saved = saved.map(|path| path.display().to_string());
+    let mut warnings = converted.warnings();
+    if converted.names_files && saved.is_none() {
+        let folder = study.files().folder().display().to_string();
+        let folder = if folder.is_empty() { ".".to_owned() } else { folder };
+        warnings.push(format!("it names files, relative to the folder of the study: {folder}"));
+    }
     let object = json!({
         "ok": true,
         "answer": "convert",
@@ -54,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         "text": text,
         "left_out": converted.left_out,
         "saved": saved.as_slice(),
-        "warnings": converted.warnings(),
+        "warnings": warnings,
     });
     Ok(Answer::new(arguments.study.json, &object, || match saved {
         Some(path) => format!("Saved {path}.\n"),

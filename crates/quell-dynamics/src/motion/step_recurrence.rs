@@ -203,10 +203,13 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
                 last = share(terms[ORDER]).max(last);
                 previous = share(terms[ORDER - 1]).max(previous);
             };
-            if masks.any_sticks {
+            // Friction turns with a slope: it varies small motions also where the state stays at rest, and its series says nothing.
+            let is_tilted = !contact.slope.is_empty();
+            if masks.any_sticks || is_tilted {
                 let level = contact.static_coefficient * series.pressed[0].abs();
                 let level = level.max(contact.static_coefficient * contact.normal_load);
-                bound(&series.friction, level, masks.sticking);
+                let mask = if is_tilted { V::splat(1.0) } else { masks.sticking };
+                bound(&series.friction, level, mask);
             }
             if masks.follows_law && !masks.any_slips {
                 // The level of an elastic slider that adheres ends the step, but does not act on the state.

@@ -86,12 +86,21 @@ impl System {
         self.contacts.iter().any(Contact::has_state)
     }
 
-    /// The same system without the waves of its inputs.
+    /// The same system without the waves of its inputs. A dither that multiplies friction takes its mean with it: without it friction is
+    /// what the law gives, also where the mean of the factor is 0 because the direction of sliding alternates.
     #[must_use]
     pub fn undithered(&self) -> Self {
         let mut system = self.clone();
+        let mut freed = vec![false; self.contacts.len()];
         for input in &mut system.inputs {
-            input.profile = input.profile.without_waves();
+            let acts = input.profile.waves().iter().any(|wave| wave.amplitude != 0.0);
+            input.profile = match input.target {
+                InputTarget::Friction { contact } if acts => {
+                    let is_first = !std::mem::replace(&mut freed[contact], true);
+                    Profile::constant(f64::from(u8::from(is_first)))
+                }
+                _ => input.profile.without_waves(),
+            };
         }
         system
     }

@@ -5,6 +5,7 @@
 
 use quell_input::complaint::{Complaint, Complaints, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
+use quell_model::disc::Contribution;
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Structure};
 use quell_model::units::UnitSystem;
 use quell_model::{Friction, System};
@@ -152,7 +153,8 @@ impl SystemDocument<'_> {
             }
             let is_table = given.entries().iter().any(|entry| entry.table().is_some());
             let whole = format!("[{name}]");
-            let is_known = OF_EQUATIONS.contains(&name) || self.left_out.contains(&whole);
+            let is_known = OF_EQUATIONS.contains(&name)
+                || self.left_out.iter().any(|known| known.starts_with(&whole));
             if is_table && !is_known && !document.has(name) {
                 self.left_out.push(whole);
             }
@@ -204,8 +206,8 @@ impl SystemDocument<'_> {
         for name in ["sweep", "design", "uncertainty"] {
             let Some(given) = self.own.get(name) else { continue };
             match asked(name, given) {
-                Some(asked) => document.set(name, asked),
-                None => self.left_out.push(format!("[{name}]")),
+                Ok(asked) => document.set(name, asked),
+                Err(path) => self.left_out.push(format!("[{name}], by {path}")),
             }
         }
     }
@@ -216,8 +218,16 @@ impl SystemDocument<'_> {
         varies_by: Option<&'static str>,
     ) -> Result<Table, Complaints> {
         if let Some(key) = varies_by {
-            let allowed = "left out: a disc that varies in time is not written as a system";
+            let allowed = "left out, or its value at a moment: a disc that varies in time is not written as a system";
             return Err(refused(key, allowed));
+        }
+        if !setup.parts().contains(Contribution::FollowerForce) && !setup.disc().loads().is_empty()
+        {
+            let allowed = "without \"follower-force\": a system has no contact without friction";
+            return Err(refused("disc.without", allowed));
+        }
+        if setup.disc().loads().iter().any(|load| load.static_load != 0.0) {
+            self.left_out.push("disc.load.static_load".to_owned());
         }
         let (system, units) = setup.in_si().map_err(|invalid| {
             let first = invalid.into_iter().next();
@@ -241,10 +251,9 @@ impl SystemDocument<'_> {
         }
         let waveform = self.own.get("dither").and_then(|given| given.entries().first());
         let waveform = waveform.and_then(Node::table);
-        let dithers: Result<Vec<Option<Table>>, Complaints> =
-            system.inputs.iter().map(|input| dither_of_disc(&system, input, waveform)).collect();
-        let dithers: Vec<Node> =
-            dithers?.into_iter().flatten().map(|table| node(Value::Table(table))).collect();
+        let dithers =
+            system.inputs.iter().filter_map(|input| dither_of_disc(&system, input, waveform));
+        let dithers: Vec<Node> = dithers.map(|table| node(Value::Table(table))).collect();
         if !dithers.is_empty() {
             document.set("dither", node(Value::List(dithers)));
         }
@@ -322,30 +331,30 @@ fn renamed(path: &str) -> Option<String> {
     Some(format!("contact.{BELT}.{own}{dot}{rest}"))
 }
 
-/// A table that asks something, with the paths of the system; `None` where one has no counterpart.
-fn asked(name: &str, given: &Node) -> Option<Node> {
-    let path = |node: &mut Node| match &mut node.value {
-        Value::Text(path) => {
-            *path = renamed(path)?;
-            Some(())
+/// A table that asks something, with the paths of the system; the first path that has no counterpart, if one has none.
+fn asked(name: &str, given: &Node) -> Result<Node, String> {
+    let named = |path: &str| renamed(path).ok_or_else(|| path.to_owned());
+    let path = |node: &mut Node| -> Result<(), String> {
+        if let Value::Text(path) = &mut node.value {
+            *path = named(path)?;
         }
-        _ => Some(()),
+        Ok(())
     };
-    let keys = |table: &Table| -> Option<Table> {
+    let keys = |table: &Table| -> Result<Table, String> {
         let mut other = Table::default();
         for (key, value) in table.iter() {
-            other.set(&renamed(key)?, value.clone());
+            other.set(&named(key)?, value.clone());
         }
-        Some(other)
+        Ok(other)
     };
     let mut asked = given.clone();
     match (&mut asked.value, name) {
         (Value::List(axes), "sweep") => {
             for axis in axes.iter_mut().filter_map(Node::table_mut) {
-                axis.get_mut("parameter").map_or(Some(()), path)?;
+                axis.get_mut("parameter").map_or(Ok(()), path)?;
             }
         }
-        (Value::Table(axis), "sweep") => axis.get_mut("parameter").map_or(Some(()), path)?,
+        (Value::Table(axis), "sweep") => axis.get_mut("parameter").map_or(Ok(()), path)?,
         (Value::Table(design), "design") => {
             if let Some(Value::List(varied)) = design.get_mut("vary").map(|node| &mut node.value) {
                 varied.iter_mut().try_for_each(path)?;
@@ -359,7 +368,7 @@ fn asked(name: &str, given: &Node) -> Option<Node> {
         (Value::Table(table), _) => asked.value = Value::Table(keys(table)?),
         _ => {}
     }
-    Some(asked)
+    Ok(asked)
 }
 
 /// A contact of a disc.
@@ -406,23 +415,13 @@ fn plain(name: &str) -> String {
 }
 
 /// The dither of a contact of a disc; `None` for the factor 1 on friction without dither.
-fn dither_of_disc(
-    system: &System,
-    input: &Input,
-    waveform: Option<&Table>,
-) -> Result<Option<Table>, Complaints> {
+fn dither_of_disc(system: &System, input: &Input, waveform: Option<&Table>) -> Option<Table> {
     let (contact, direction) = match input.target {
         InputTarget::Friction { contact } => (contact, "friction"),
         InputTarget::NormalLoad { contact, .. } => (contact, "normal"),
-        InputTarget::Force(_) => return Ok(None),
+        InputTarget::Force(_) => return None,
     };
-    let Some(wave) = input.profile.waves().first() else {
-        if input.profile.mean() == 1.0 {
-            return Ok(None);
-        }
-        let allowed = "without \"follower force\": a system has no contact without friction";
-        return Err(refused("disc.without", allowed));
-    };
+    let wave = input.profile.waves().first()?;
     let mut table = Table::default();
     table.set("contact", text(&plain(&system.contacts[contact].name)));
     table.set("direction", text(direction));
@@ -440,5 +439,5 @@ fn dither_of_disc(
     table.set("amplitude", number(wave.amplitude));
     table.set("frequency", number(wave.frequency));
     table.set("phase", number(wave.phase));
-    Ok(Some(table))
+    Some(table)
 }

@@ -174,7 +174,12 @@ impl DrivenSize {
                 let allowed = "omitted: the actuator makes no force of this frequency".to_owned();
                 wrong(Fault::Conflict, allowed)
             }
-            Err(why) => wrong(Fault::Conflict, format!("a dither whose demand is known: {why}")),
+            Err(why) => wrong(
+                Fault::Conflict,
+                format!(
+                    "a force in its place: what the actuator must give for a force is unknown, because {why}"
+                ),
+            ),
         }
     }
 

@@ -185,7 +185,7 @@ pub(super) fn half_symmetric(system: &System) -> Vec<String> {
              symmetric pair is missing; a {name} that is unsymmetric on purpose is allowed"
         ))
     });
-    let lost = lost_sign(mechanical.stiffness()).map(|(i, j)| {
+    let lost = lost_sign(mechanical).map(|(i, j)| {
         let [entry, other] = [(i, j), (j, i)].map(|at| digits(mechanical.stiffness()[at], 6));
         format!(
             "system.stiffness[{i}][{j}] is {entry}, but system.stiffness[{j}][{i}] is {other}: check whether one of a symmetric pair has \
@@ -200,13 +200,19 @@ pub(super) fn half_symmetric(system: &System) -> Vec<String> {
 const COUPLES: f64 = 1e-4;
 
 /// The first entry of a stiffness whose mirror image is its negative.
-fn lost_sign(matrix: &Matrix) -> Option<(usize, usize)> {
+fn lost_sign(mechanical: &Mechanical) -> Option<(usize, usize)> {
+    let (matrix, damping) = (mechanical.stiffness(), mechanical.damping());
     let n = matrix.rows();
     let mut pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
     let couples = |(i, j): (usize, usize)| {
         matrix[(i, j)].powi(2) > COUPLES * COUPLES * (matrix[(i, i)] * matrix[(j, j)]).abs()
     };
-    pairs.find(|&(i, j)| couples((i, j)) && matrix[(i, j)] == -matrix[(j, i)])
+    // Next to gyroscopic terms it is what damping makes of a frame that turns.
+    let turns = |(i, j)| damping[(i, j)] != 0.0 && damping[(i, j)] == -damping[(j, i)];
+    pairs.find(|&at| {
+        let (i, j) = at;
+        couples(at) && matrix[at] == -matrix[(j, i)] && !turns(at)
+    })
 }
 
 /// The first entry that is not zero while its mirror image is.

@@ -183,11 +183,7 @@ fn table(study: &SystemStudy, done: &SlidingStability) -> String {
                         with(Quantity::Force, found.amplitude),
                         if study.system().inputs.len() > 1 { "of the first dither " } else { "" },
                         kind(found.crossing),
-                        if found.contacts_stay_closed {
-                            ""
-                        } else {
-                            ", if every contact stayed closed"
-                        }
+                        if found.contacts_stay_closed { "" } else { ", if contacts stayed closed" }
                     );
                 }
             }

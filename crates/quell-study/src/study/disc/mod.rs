@@ -159,6 +159,11 @@ impl DiscSetup {
         self.disc.system_of(self.parts)
     }
 
+    /// The contributions that are switched on.
+    pub(super) fn parts(&self) -> Contributions {
+        self.parts
+    }
+
     /// The equations in SI, or scaled where the scales of the disc are not known.
     pub(super) fn in_si(&self) -> Result<(System, UnitSystem), InvalidValues> {
         match self.disc.system_in_si(self.parts) {

@@ -1,10 +1,13 @@
 //! Amplitudes of a system that its actuator determines, once the structure is known.
 
 use quell_design::actuator::Actuator;
+use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linearised::Linearised;
 use quell_model::System;
+use quell_model::digits::digits;
 use quell_model::profile::{Profile, Wave};
+use quell_model::system::{Input, InputTarget};
 
 use crate::study::dither_size::{GivenSize, SizedAmplitude};
 use crate::study::reader::Reader;
@@ -49,7 +52,42 @@ pub(in crate::study) fn amplitudes(
         input.profile = Profile::constant(input.profile.mean()).with(wave);
         given.push(driven.into_given(dither, amplitude));
     }
+    if whole && opens(reader, system, &given) {
+        return None;
+    }
     whole.then_some(given)
+}
+
+/// Reports an actuator that would lift a contact whose load is prescribed, once it is known what it gives.
+fn opens(reader: &mut Reader, system: &System, given: &[GivenSize]) -> bool {
+    let may_touch = system.contacts.len() == 1 && system.structure.size() == 1;
+    for (index, contact) in system.contacts.iter().enumerate() {
+        let on = |input: &Input| matches!(input.target, InputTarget::NormalLoad { contact, .. } if contact == index);
+        let inputs = system.inputs.iter().enumerate().filter(|(_, input)| on(input));
+        let peaks: f64 =
+            inputs.clone().flat_map(|(_, input)| input.profile.waves()).map(Wave::peak).sum();
+        let least = contact.load().bounds().0;
+        let is_too_much = peaks > least || (peaks == least && !may_touch);
+        if contact.normal.is_some() || !is_too_much {
+            continue;
+        }
+        let driven = given.iter().find(|size| {
+            size.key.needs_actuator() && inputs.clone().any(|(input, _)| input == size.dither)
+        });
+        if let Some(size) = driven {
+            let few = if may_touch { "at most" } else { "less than" };
+            let allowed = format!(
+                "such that the peaks on contact {} sum to {few} its load {}: they sum to {}, and a prescribed load must stay positive",
+                contact.name,
+                digits(least, 6),
+                digits(peaks, 6)
+            );
+            let (key, value) = (size.path.as_str(), size.value);
+            reader.complain(Complaint::new(Fault::Value, key, Origin::Whole, value, allowed));
+            return true;
+        }
+    }
+    false
 }
 
 /// The system without the contacts whose load its motion does not change.

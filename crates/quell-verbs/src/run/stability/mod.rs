@@ -323,7 +323,7 @@ impl SlidingStability {
                 "{separator}{more} makes it {} from the amplitude {} on{}",
                 becomes(found.becomes),
                 force(study.units(), found.amplitude),
-                if found.contacts_stay_closed { "" } else { ", if every contact stayed closed" }
+                if found.contacts_stay_closed { "" } else { ", if contacts stayed closed" }
             )
         });
         let said = without + &more;

@@ -23,7 +23,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
     let is_amplitude = |range: &&DesignRange| study.dither_of(&range.path).is_some();
     let (amplitude, others): (Vec<_>, Vec<_>) = asked.vary.iter().partition(is_amplitude);
     let [amplitude] = amplitude.as_slice() else {
-        let allowed = "a list with the amplitude of one dither, such as dither.amplitude: the least one is sought";
+        let allowed = "a list with the amplitude of one dither as a force, such as dither.amplitude: the least one is sought, and what an actuator takes follows from it";
         return Err(without_amplitude(asked, allowed.to_owned()));
     };
     let input = study.dither_of(&amplitude.path).unwrap_or(0);
