@@ -74,8 +74,8 @@ impl Study {
     pub fn as_system(&self) -> Result<ConvertedStudy, Complaints> {
         let mut converted = SystemDocument { own: &self.source.document, left_out: Vec::new() };
         let document = match self.kind() {
-            Kind::Belt(setup) => Ok(converted.of_belt(setup)),
-            Kind::Disc(setup) => converted.of_disc(setup, self.varies_by()),
+            Kind::Belt(setup) => Ok(converted.mass(setup)),
+            Kind::Disc(setup) => converted.plate(setup, self.varies_by()),
             Kind::System(_) => {
                 Err(refused("system", "a study of a belt or a disc: this one is a system already"))
             }
@@ -161,7 +161,8 @@ impl SystemDocument<'_> {
         }
     }
 
-    fn of_belt(&mut self, setup: &BeltSetup) -> Table {
+    /// One mass, by the keys of its belt.
+    fn mass(&mut self, setup: &BeltSetup) -> Table {
         let own = setup.system();
         let mut document = self.begun();
         let mut structure = structure(own.system(), own.units());
@@ -191,7 +192,7 @@ impl SystemDocument<'_> {
         let dithers: Vec<Node> = dithers
             .iter()
             .filter_map(Node::table)
-            .map(|table| node(Value::Table(dither_of_belt(table))))
+            .map(|table| node(Value::Table(belt_dither(table))))
             .collect();
         if !dithers.is_empty() {
             document.set("dither", node(Value::List(dithers)));
@@ -207,12 +208,13 @@ impl SystemDocument<'_> {
             let Some(given) = self.own.get(name) else { continue };
             match asked(name, given) {
                 Ok(asked) => document.set(name, asked),
-                Err(path) => self.left_out.push(format!("[{name}], by {path}")),
+                Err(NoCounterpart(path)) => self.left_out.push(format!("[{name}], by {path}")),
             }
         }
     }
 
-    fn of_disc(
+    /// The modes of a plate in the frame of its loads, by the numbers of the equations.
+    fn plate(
         &mut self,
         setup: &DiscSetup,
         varies_by: Option<&'static str>,
@@ -252,7 +254,7 @@ impl SystemDocument<'_> {
         let waveform = self.own.get("dither").and_then(|given| given.entries().first());
         let waveform = waveform.and_then(Node::table);
         let dithers =
-            system.inputs.iter().filter_map(|input| dither_of_disc(&system, input, waveform));
+            system.inputs.iter().filter_map(|input| load_dither(&system, input, waveform));
         let dithers: Vec<Node> = dithers.map(|table| node(Value::Table(table))).collect();
         if !dithers.is_empty() {
             document.set("dither", node(Value::List(dithers)));
@@ -305,7 +307,7 @@ fn key_of_contact(key: &str) -> Option<&str> {
 }
 
 /// The dither of a belt: a force on its mass, or on the load of its contact.
-fn dither_of_belt(own: &Table) -> Table {
+fn belt_dither(own: &Table) -> Table {
     let mut table = Table::default();
     let direction = own.get("direction").map(|node| &node.value);
     let normal = matches!(direction, Some(Value::Text(word)) if word == "normal");
@@ -331,16 +333,19 @@ fn renamed(path: &str) -> Option<String> {
     Some(format!("contact.{BELT}.{own}{dot}{rest}"))
 }
 
+/// A path of a number that a system does not have.
+struct NoCounterpart(String);
+
 /// A table that asks something, with the paths of the system; the first path that has no counterpart, if one has none.
-fn asked(name: &str, given: &Node) -> Result<Node, String> {
-    let named = |path: &str| renamed(path).ok_or_else(|| path.to_owned());
-    let path = |node: &mut Node| -> Result<(), String> {
+fn asked(name: &str, given: &Node) -> Result<Node, NoCounterpart> {
+    let named = |path: &str| renamed(path).ok_or_else(|| NoCounterpart(path.to_owned()));
+    let path = |node: &mut Node| -> Result<(), NoCounterpart> {
         if let Value::Text(path) = &mut node.value {
             *path = named(path)?;
         }
         Ok(())
     };
-    let keys = |table: &Table| -> Result<Table, String> {
+    let keys = |table: &Table| -> Result<Table, NoCounterpart> {
         let mut other = Table::default();
         for (key, value) in table.iter() {
             other.set(&named(key)?, value.clone());
@@ -415,7 +420,7 @@ fn plain(name: &str) -> String {
 }
 
 /// The dither of a contact of a disc; `None` for the factor 1 on friction without dither.
-fn dither_of_disc(system: &System, input: &Input, waveform: Option<&Table>) -> Option<Table> {
+fn load_dither(system: &System, input: &Input, waveform: Option<&Table>) -> Option<Table> {
     let (contact, direction) = match input.target {
         InputTarget::Friction { contact } => (contact, "friction"),
         InputTarget::NormalLoad { contact, .. } => (contact, "normal"),
