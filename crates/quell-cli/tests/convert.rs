@@ -240,3 +240,37 @@ fn volts_that_lift_a_contact_are_refused_at_their_key() {
         place.good(&["check", name, "--set", "dither.amplitude_v_rms=1000"]);
     }
 }
+
+/// A stack behind the spring of its contact makes the same load whether the contacts slide or not, and whichever is listed first.
+#[test]
+fn volts_on_a_contact_at_rest_are_not_those_of_its_neighbour() {
+    let pressed = "[[contact]]\nname = 'pressed'\ntangent = { x = 1 }\nnormal_load = 1000\nbelt_velocity = 0\n\
+                   [contact.friction]\nlaw = 'coulomb'\ncoefficient = 0.3\n";
+    let other = "[[contact]]\nname = 'other'\ntangent = { x = 1 }\nnormal = { y = 1 }\nnormal_load = 1000\nnormal_stiffness = 1e6\n\
+                 belt_velocity = 1\n[contact.friction]\nlaw = 'coulomb'\ncoefficient = 0.3\n";
+    let structure =
+        "[system]\nunits = 'SI'\ncoordinates = ['x', 'y']\nmass = [1, 1]\nstiffness = [1e6, 1e6]\n";
+    let place = Place::with("volts-at-rest", &[]);
+    for (name, contacts) in [("first.toml", [pressed, other]), ("last.toml", [other, pressed])] {
+        for contact in ["pressed", "other"] {
+            let dither = format!(
+                "[[dither]]\ncontact = '{contact}'\ndirection = 'normal'\nwaveform = 'sine'\namplitude_v = 1\nfrequency_hz = 20e3\n"
+            );
+            let spring = if contact == "pressed" { "normal_stiffness = 1e8\nbelt" } else { "belt" };
+            let contacts =
+                contacts.concat().replace("belt_velocity = 0", &format!("{spring}_velocity = 0"));
+            place.write(name, [structure, &contacts, &dither, STACK].concat());
+            let amplitude = |arguments: &[&str]| {
+                let checked = place.good(&[&["check", name], arguments].concat());
+                checked["dithers"][0]["amplitude"].as_f64().expect("a number")
+            };
+            let (at_rest, sliding) =
+                (amplitude(&[]), amplitude(&["--set", "contact.pressed.belt_velocity=1"]));
+            assert!((at_rest / sliding - 1.0).abs() < 1e-9, "{contact}: {at_rest}, {sliding}");
+            if contact == "pressed" {
+                let exact = 7.0 / (1.0 + 7000.0 / 20e-6 / 1e8);
+                assert!((at_rest / exact - 1.0).abs() < 1e-12, "{at_rest} should be {exact}");
+            }
+        }
+    }
+}

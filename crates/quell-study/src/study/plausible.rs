@@ -195,23 +195,16 @@ pub(super) fn half_symmetric(system: &System) -> Vec<String> {
     found.chain(lost).collect()
 }
 
-/// Share of the stiffness of its coordinates below which an entry is no spring between them: the damping of a disc that turns gives such
-/// entries of opposite signs.
-const COUPLES: f64 = 1e-4;
-
 /// The first entry of a stiffness whose mirror image is its negative.
 fn lost_sign(mechanical: &Mechanical) -> Option<(usize, usize)> {
     let (matrix, damping) = (mechanical.stiffness(), mechanical.damping());
     let n = matrix.rows();
     let mut pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-    let couples = |(i, j): (usize, usize)| {
-        matrix[(i, j)].powi(2) > COUPLES * COUPLES * (matrix[(i, i)] * matrix[(j, j)]).abs()
-    };
     // Next to gyroscopic terms it is what damping makes of a frame that turns.
     let turns = |(i, j)| damping[(i, j)] != 0.0 && damping[(i, j)] == -damping[(j, i)];
     pairs.find(|&at| {
         let (i, j) = at;
-        couples(at) && matrix[at] == -matrix[(j, i)] && !turns(at)
+        matrix[at] != 0.0 && matrix[at] == -matrix[(j, i)] && !turns(at)
     })
 }
 

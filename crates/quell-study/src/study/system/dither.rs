@@ -6,6 +6,7 @@ use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
 use quell_input::nearest;
 use quell_model::Contact;
+use quell_model::digits::digits;
 use quell_model::parameter::system::{
     FRICTION_FACTOR, FRICTION_FACTOR_MEAN, SYSTEM_DITHER_FREQUENCY,
 };
@@ -415,12 +416,7 @@ fn stays_pressed(
     inputs: &[Option<Input>],
     (contacts, coordinates): (&[Contact], usize),
 ) {
-    // The engine of one mass takes a load that touches zero.
-    let may_touch = contacts.len() == 1 && coordinates == 1;
-    let few = if may_touch { "at most" } else { "less than" };
-    for (index, contact) in
-        contacts.iter().enumerate().filter(|(_, contact)| contact.normal.is_none())
-    {
+    for (index, contact) in contacts.iter().enumerate() {
         let mut peaks = 0.0;
         let mut last = None;
         for (input, table) in inputs.iter().zip(tables) {
@@ -433,11 +429,8 @@ fn stays_pressed(
                 last = Some(table);
             }
         }
-        let least = contact.load().bounds().0;
-        let is_too_much = peaks > least || (peaks == least && !may_touch);
-        let Some((prefix, _, table)) = last.filter(|_| is_too_much) else {
-            continue;
-        };
+        let Some(allowed) = lifted(contact, peaks, (contacts.len(), coordinates)) else { continue };
+        let Some((prefix, _, table)) = last else { continue };
         let twins = DITHER_AMPLITUDE.si.iter().map(|twin| twin.key);
         let sizes = DITHER_SIZES.iter().map(|size| size.key);
         let written = [DITHER_AMPLITUDE.key()]
@@ -446,12 +439,28 @@ fn stays_pressed(
             .chain(sizes)
             .find_map(|name| Some((join(prefix, name), table.get(name)?)));
         if let Some((key, node)) = written {
-            let allowed = format!(
-                "such that the peaks on contact {} sum to {few} its load {least}: they sum to {peaks}, and a prescribed \
-                 load must stay positive",
-                contact.name
-            );
             reader.wrong(&key, node, allowed);
         }
     }
+}
+
+/// What is allowed where modulations with these peaks lift a contact whose load is prescribed, in a system of so many contacts and
+/// coordinates; `None` if it stays pressed.
+pub(super) fn lifted(
+    contact: &Contact,
+    peaks: f64,
+    (contacts, coordinates): (usize, usize),
+) -> Option<String> {
+    // The engine of one mass takes a load that touches zero.
+    let may_touch = contacts == 1 && coordinates == 1;
+    let least = contact.load().bounds().0;
+    let is_too_much = peaks > least || (peaks == least && !may_touch);
+    let few = if may_touch { "at most" } else { "less than" };
+    (contact.normal.is_none() && is_too_much).then(|| {
+        let [least, peaks] = [least, peaks].map(|load| digits(load, 6));
+        format!(
+            "such that the peaks on contact {} sum to {few} its load {least}: they sum to {peaks}, and a prescribed load must stay positive",
+            contact.name
+        )
+    })
 }

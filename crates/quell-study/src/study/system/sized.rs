@@ -1,14 +1,17 @@
 //! Amplitudes of a system that its actuator determines, once the structure is known.
 
+use std::borrow::Cow;
+
 use quell_design::actuator::Actuator;
 use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linearised::Linearised;
-use quell_model::System;
-use quell_model::digits::digits;
+use quell_linear::steady::NoSteadySliding;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Input, InputTarget};
+use quell_model::{Contact, System};
 
+use super::dither::lifted;
 use crate::study::dither_size::{GivenSize, SizedAmplitude};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::join;
@@ -34,15 +37,11 @@ pub(in crate::study) fn amplitudes(
             SizedAmplitude::Driven(driven) => driven,
         };
         let wave = system.inputs[dither].profile.waves().first().cloned()?;
-        let sliding = Linearised::new(system).or_else(|why| {
-            // Where nothing slides, contacts under prescribed loads still leave the motion of the dither to the structure.
-            Linearised::new(&without_prescribed_loads(system)).map_err(|_| why)
-        });
-        let point = sliding.as_ref().map_err(|why| why.clone().into()).and_then(|sliding| {
-            let target = &system.inputs[dither].target;
-            let (waveform, frequency) = (&wave.waveform, wave.frequency);
-            Ok(DrivenPoint::of_input(system, sliding, target, waveform, frequency)?)
-        });
+        let point =
+            about_sliding(system, dither).map_err(Into::into).and_then(|(system, linear)| {
+                let target = &system.inputs[dither].target;
+                Ok(DrivenPoint::of_input(&system, &linear, target, &wave.waveform, wave.frequency)?)
+            });
         let Some(amplitude) = driven.resolved(reader, actuator, point) else {
             whole = false;
             continue;
@@ -60,28 +59,17 @@ pub(in crate::study) fn amplitudes(
 
 /// Reports an actuator that would lift a contact whose load is prescribed, once it is known what it gives.
 fn opens(reader: &mut Reader, system: &System, given: &[GivenSize]) -> bool {
-    let may_touch = system.contacts.len() == 1 && system.structure.size() == 1;
+    let size = (system.contacts.len(), system.structure.size());
     for (index, contact) in system.contacts.iter().enumerate() {
         let on = |input: &Input| matches!(input.target, InputTarget::NormalLoad { contact, .. } if contact == index);
         let inputs = system.inputs.iter().enumerate().filter(|(_, input)| on(input));
         let peaks: f64 =
             inputs.clone().flat_map(|(_, input)| input.profile.waves()).map(Wave::peak).sum();
-        let least = contact.load().bounds().0;
-        let is_too_much = peaks > least || (peaks == least && !may_touch);
-        if contact.normal.is_some() || !is_too_much {
-            continue;
-        }
+        let Some(allowed) = lifted(contact, peaks, size) else { continue };
         let driven = given.iter().find(|size| {
             size.key.needs_actuator() && inputs.clone().any(|(input, _)| input == size.dither)
         });
         if let Some(size) = driven {
-            let few = if may_touch { "at most" } else { "less than" };
-            let allowed = format!(
-                "such that the peaks on contact {} sum to {few} its load {}: they sum to {}, and a prescribed load must stay positive",
-                contact.name,
-                digits(least, 6),
-                digits(peaks, 6)
-            );
             let (key, value) = (size.path.as_str(), size.value);
             reader.complain(Complaint::new(Fault::Value, key, Origin::Whole, value, allowed));
             return true;
@@ -90,9 +78,43 @@ fn opens(reader: &mut Reader, system: &System, given: &[GivenSize]) -> bool {
     false
 }
 
-/// The system without the contacts whose load its motion does not change.
+/// The equations about steady sliding that a dither moves, and their system. Where not every contact can slide they are those of what
+/// contacts under prescribed loads leave to the structure.
+fn about_sliding(
+    system: &System,
+    dither: usize,
+) -> Result<(Cow<'_, System>, Linearised), NoSteadySliding> {
+    let why = match Linearised::new(system) {
+        Ok(linear) => return Ok((Cow::Borrowed(system), linear)),
+        Err(why) => why,
+    };
+    if let InputTarget::NormalLoad { contact, .. } = system.inputs[dither].target
+        && is_prescribed(&system.contacts[contact])
+    {
+        // The structure does not move against a load that its motion does not change.
+        return Ok((Cow::Borrowed(system), Linearised::frictionless(system)?));
+    }
+    let rest = without_prescribed_loads(system);
+    let linear = Linearised::new(&rest).map_err(|_| why)?;
+    Ok((Cow::Owned(rest), linear))
+}
+
+/// Whether the motion of the structure does not change the load of a contact.
+fn is_prescribed(contact: &Contact) -> bool {
+    contact.normal.is_none() && contact.slope.is_none()
+}
+
+/// The system without the contacts under prescribed loads, with its inputs on the contacts that are left.
 fn without_prescribed_loads(system: &System) -> System {
-    let mut system = system.clone();
-    system.contacts.retain(|contact| contact.normal.is_some() || contact.slope.is_some());
-    system
+    let mut rest = system.clone();
+    rest.contacts.retain(|contact| !is_prescribed(contact));
+    for input in &mut rest.inputs {
+        if let InputTarget::NormalLoad { contact, .. } | InputTarget::Friction { contact } =
+            &mut input.target
+        {
+            let before = system.contacts.iter().take(*contact);
+            *contact = before.filter(|contact| !is_prescribed(contact)).count();
+        }
+    }
+    rest
 }
