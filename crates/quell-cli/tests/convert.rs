@@ -49,6 +49,28 @@ fn newtons(volts_rms: f64) -> f64 {
     volts_rms * SQRT_2 * 7.0 * spring.hypot(damper) / (spring + stack).hypot(damper)
 }
 
+/// A disc beyond what its stack can give is warned of, as the same disc written as a system is.
+#[test]
+fn a_disc_beyond_its_actuator_is_warned_of() {
+    let text =
+        format!("{DISC}amplitude_v_rms = 75\n{STACK}").replace("voltage = 1000", "voltage = 90");
+    let place = Place::with("disc-beyond-its-stack", &[("disc.toml", &text)]);
+    place.good(&["convert", "disc.toml", "--save", "system.toml"]);
+    // A sine of 75 V root mean square has 212 V from peak to peak, of which 90 V are 1/2.357.
+    let words = "demands 2.357 times what the actuator can give";
+    for arguments in [
+        &["check", "disc.toml"][..],
+        &["simulate", "disc.toml", "--until", "1ms"],
+        &["check", "system.toml"],
+        &["simulate", "system.toml", "--until", "1ms"],
+    ] {
+        let answer = place.good(arguments);
+        let warnings = answer["warnings"].as_array().expect("a list");
+        let is_said = |warning: &Json| warning.as_str().is_some_and(|text| text.contains(words));
+        assert!(warnings.iter().any(is_said), "{arguments:?}: {warnings:?}");
+    }
+}
+
 #[test]
 fn a_disc_takes_its_dither_in_volts() {
     let text = format!("{DISC}amplitude_v_rms = 75\n{STACK}");

@@ -22,8 +22,8 @@ use quell_numerics::order::{ascending, ascending_by};
 use serde_json::Value as Json;
 
 pub(crate) use demand::{demand_fields, warning_about_samples, warnings_about_actuator};
-pub(crate) use rating::beyond_actuator;
 pub(in crate::run) use rating::designed;
+pub(crate) use rating::{beyond_actuator, beyond_actuator_of_disc};
 
 use super::design::with_wave;
 use super::system::{self, checked_frequencies, has_equations};

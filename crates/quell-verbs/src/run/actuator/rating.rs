@@ -1,16 +1,28 @@
 //! Whether a dither is within what the actuator of its study can give, for every verb.
 
+use quell_design::actuator::Actuator;
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linearised::Linearised;
+use quell_model::System;
 
-use crate::study::SystemStudy;
+use crate::study::{DiscStudy, SystemStudy};
 use crate::words::{digits, quantity_at};
 
 /// The warning about the dither of a study that demands more than its actuator can give: the dither that `actuator` judges. `None` where
 /// the demand is unknown.
 pub(crate) fn beyond_actuator(study: &SystemStudy) -> Option<String> {
-    let system = study.system();
-    let (actuator, input) = (study.actuator()?, system.inputs.get(designed(study))?);
+    demands_too_much(study.system(), study.actuator()?, designed(study))
+}
+
+/// The same of a disc: every load has its actuator, and all of them give the same.
+pub(crate) fn beyond_actuator_of_disc(study: &DiscStudy) -> Option<String> {
+    let actuator = study.actuator()?;
+    let system = study.disc().system_in_si(study.parts())?.ok()?;
+    demands_too_much(&system, actuator, 0)
+}
+
+fn demands_too_much(system: &System, actuator: &Actuator, dither: usize) -> Option<String> {
+    let input = system.inputs.get(dither)?;
     let wave = input.profile.waves().first()?;
     let linear = Linearised::new(system).ok()?;
     let (waveform, frequency) = (&wave.waveform, wave.frequency);

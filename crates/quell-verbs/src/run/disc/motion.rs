@@ -13,6 +13,7 @@ pub use super::watch::NoObservedGrowth;
 use super::watch::RowWatch;
 use crate::complaint::Failure;
 use crate::disc_units::{DiscUnits, FORCE, POWER};
+use crate::run::actuator::beyond_actuator_of_disc;
 use crate::run::simulate::{MotionRequest, Simulation, run_observed};
 use crate::run::system::in_units_of;
 use crate::run::system::periods::slowest_period;
@@ -204,7 +205,9 @@ impl DiscSimulation {
     pub fn json(&self, study: &DiscStudy) -> Json {
         let mut object = self.motion.json(&self.system);
         object["sentence"] = self.sentence(study).into();
-        object["warnings"] = self.warnings().into();
+        let mut warnings = self.warnings();
+        warnings.extend(beyond_actuator_of_disc(study));
+        object["warnings"] = warnings.into();
         object["leading_growth_rate"] = self.kick.eigenvalue.re.into();
         object["leading_frequency"] = self.kick.eigenvalue.im.abs().into();
         object["start"]["amplitude"] = self.kick.amplitude.into();
