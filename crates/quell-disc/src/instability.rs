@@ -25,7 +25,8 @@ use num_complex::Complex64;
 use quell_linear::growth::Growth;
 use quell_model::Disc;
 use quell_model::disc::{Contributions, Load};
-use quell_numerics::eigen::{EigenError, eigenvalues, modulus};
+use quell_numerics::eigen::{EigenError, eigenvalues};
+use quell_numerics::polar::modulus;
 
 use crate::equations::linearised;
 

@@ -14,6 +14,8 @@
 //!
 //! The disc itself, its modes, loads and dither, is a noun of `quell-model`.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod boundaries;
 pub mod dithered;
 pub mod equations;

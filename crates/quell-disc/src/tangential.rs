@@ -41,7 +41,7 @@ impl TangentialDither {
 
     /// The slip ratio that reduces the mean of the follower force to a fraction in (0, 1].
     pub fn slip_ratio_for(mean: f64) -> f64 {
-        (FRAC_PI_2 * mean).sin().recip()
+        libm::sin(FRAC_PI_2 * mean).recip()
     }
 
     /// Amplitude φ₀ of the angle, radians.
@@ -51,7 +51,7 @@ impl TangentialDither {
 
     /// Mean of the follower force over f.
     pub fn mean(&self) -> f64 {
-        if self.reverses() { self.slip_ratio.recip().asin() / FRAC_PI_2 } else { 1.0 }
+        if self.reverses() { libm::asin(self.slip_ratio.recip()) / FRAC_PI_2 } else { 1.0 }
     }
 
     /// Amplitude of cos nRτ in the follower force over f, n ≥ 1.
@@ -60,8 +60,8 @@ impl TangentialDither {
             return 0.0;
         }
         let n = f64::from(n);
-        let half = PI - self.slip_ratio.recip().acos();
-        4.0 / (n * PI) * (n * half).sin()
+        let half = PI - libm::acos(self.slip_ratio.recip());
+        4.0 / (n * PI) * libm::sin(n * half)
     }
 
     /// Peak D_T of the dither force for a mass m* and a friction f*.

@@ -11,9 +11,10 @@ use quell_model::disc::{DiscDither, DitherShape, Load, Mode, Patch};
 use quell_model::profile::{KnotShape, Knots};
 use quell_model::waveform::{Burst, FourierWave, Harmonic, Hold, SampledWave};
 use quell_model::{Disc, System, Waveform};
-use quell_numerics::eigen::{eigenvalues, modulus};
+use quell_numerics::eigen::eigenvalues;
 use quell_numerics::floquet::Effort;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::polar::modulus;
 
 const RATIO: f64 = 2.7;
 

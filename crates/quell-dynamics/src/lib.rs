@@ -8,6 +8,8 @@
 //! * [`mean_friction`]: the average of friction with a state of its own, under a prescribed slip;
 //! * [`response`]: the steady response of a run, its spectrum, residual vibration and costs.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod attractor;
 mod band;
 mod contraction;

@@ -8,8 +8,9 @@ use quell_dynamics::orbit::{
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::{LawKind, System, Waveform};
-use quell_numerics::continuation::{modulus, multipliers};
+use quell_numerics::continuation::multipliers;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::polar::modulus;
 
 fn unit(at: usize) -> Vec<f64> {
     (0..2).map(|place| f64::from(u8::from(place == at))).collect()

@@ -11,12 +11,13 @@ use quell_linear::spectrum;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::{Friction, LawKind, System, Waveform};
+use quell_numerics::continuation::PeriodMap;
 use quell_numerics::continuation::criticality::{Criticality, first_lyapunov};
 use quell_numerics::continuation::threshold::BifurcationKind;
-use quell_numerics::continuation::{PeriodMap, modulus};
 use quell_numerics::eigen::Decomposition;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::normal_form::CriticalPair;
+use quell_numerics::polar::modulus;
 
 fn structure(mass: [f64; 2], damping: [[f64; 2]; 2], stiffness: [[f64; 2]; 2]) -> Mechanical {
     let names = vec!["x".to_owned(), "y".to_owned()];

@@ -8,8 +8,9 @@ use quell_dynamics::simulation::EventKind;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::{Belt, Direction, Dither, LawKind, System, Waveform};
-use quell_numerics::continuation::{modulus, multipliers};
+use quell_numerics::continuation::multipliers;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::polar::modulus;
 
 const COULOMB: [f64; 3] = [0.3, 0.3, 0.0];
 const FALLING: [f64; 5] = [0.25, 0.4, 0.1, 2.0, 0.05];

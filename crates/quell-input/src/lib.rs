@@ -19,6 +19,8 @@
 //!
 //! A reader of a file answers with numbers and their lines; it knows no study, no key and no unit system. A new format has its reader here.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod actuator_file;
 pub mod columns;
 pub mod complaint;

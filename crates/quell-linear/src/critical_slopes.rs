@@ -19,9 +19,10 @@
 //! many costs one more of them, and changes nothing.
 
 use num_complex::Complex64;
-use quell_numerics::eigen::{Decomposition, modulus};
+use quell_numerics::eigen::Decomposition;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::order::ascending;
+use quell_numerics::polar::modulus;
 
 use crate::growth::Verdict;
 use crate::linearised::{FrictionSlopes, LinearContact, Linearised};

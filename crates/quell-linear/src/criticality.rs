@@ -18,8 +18,9 @@
 use num_complex::Complex64;
 use quell_model::System;
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
-use quell_numerics::eigen::{Decomposition, modulus};
+use quell_numerics::eigen::Decomposition;
 use quell_numerics::normal_form::{CriticalPair, DerivativesAlong, conjugate, hopf};
+use quell_numerics::polar::modulus;
 
 use crate::linearised::{LinearContact, Linearised};
 use crate::spectrum::growth;

@@ -12,6 +12,8 @@
 //! * [`series_actuator`]: stroke and power of normal dither through the spring of a contact;
 //! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes, of one mass.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod averaging;
 pub mod critical_slopes;
 pub mod criticality;

@@ -5,8 +5,8 @@
 //! these motions is that of the independent r, which elimination finds; the spectrum has two eigenvalues near 0 for each.
 
 use num_complex::Complex64;
-use quell_numerics::eigen::modulus;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::polar::modulus;
 
 use crate::linearised::Linearised;
 use crate::spectrum::SmallMotion;

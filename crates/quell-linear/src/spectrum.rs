@@ -40,7 +40,7 @@ impl SmallMotion {
 
     /// −Re λ/|λ|; 0 for λ = 0.
     pub fn damping_ratio(&self) -> f64 {
-        let size = quell_numerics::eigen::modulus(self.eigenvalue);
+        let size = quell_numerics::polar::modulus(self.eigenvalue);
         if size > 0.0 { -self.eigenvalue.re / size } else { 0.0 }
     }
 }
@@ -105,7 +105,7 @@ pub(crate) fn growth_of(decomposition: &Decomposition) -> Result<Growth, EigenEr
 
 /// The shape with its largest entry turned to 1; unchanged if it vanishes.
 fn scaled(shape: &[Complex64]) -> Vec<Complex64> {
-    let size = |z: &Complex64| quell_numerics::eigen::modulus(*z);
+    let size = |z: &Complex64| quell_numerics::polar::modulus(*z);
     let largest = shape.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
     match largest {
         Some(largest) if size(largest) > 0.0 => shape.iter().map(|z| z / largest).collect(),

@@ -11,6 +11,8 @@
 //! | [`store`] | stores that survive interruptions |
 //! | [`map`] | a map computed, resumed or shared among processes, and its boundaries |
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod map;
 pub mod store;
 pub mod sweep;

@@ -10,6 +10,8 @@
 //! [`InvalidValues`]. Symbols and equation numbers are those of Michaux (2005), *Suppression of
 //! Friction-Induced Oscillations through Use of High-Frequency Dither Signals*.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod belt;
 pub mod digits;
 pub mod disc;

@@ -13,8 +13,11 @@
 //! * [`order`]: sorting by numbers, compiled once;
 //! * [`cyclic`]: sequences whose beginning is arbitrary;
 //! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
+//! * [`polar`]: modulus and argument of complex numbers with the same bits on every machine;
 //! * [`normal_form`]: coefficients that decide whether a bifurcation is supercritical;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
+
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod bessel;
 pub mod continuation;
@@ -25,6 +28,8 @@ pub mod eigen;
 pub mod elementary;
 pub mod extrapolation;
 pub mod floquet;
+#[cfg(all(windows, target_env = "gnu"))]
+mod fused;
 pub mod gauss_legendre;
 mod groups;
 pub mod interval;
@@ -34,6 +39,7 @@ pub mod matrix;
 pub mod normal_form;
 pub mod order;
 pub mod periodic_polynomial;
+pub mod polar;
 pub mod polynomial;
 pub mod quadrature;
 pub mod random;

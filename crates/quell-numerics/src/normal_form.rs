@@ -25,8 +25,9 @@
 
 use num_complex::Complex64;
 
-use crate::eigen::{EigenPair, modulus};
+use crate::eigen::EigenPair;
 use crate::matrix::Matrix;
+use crate::polar::modulus;
 
 /// The second and third derivatives along a critical vector q.
 pub trait DerivativesAlong {

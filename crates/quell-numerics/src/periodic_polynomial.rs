@@ -85,7 +85,7 @@ impl PeriodicPolynomial {
         let scale = intervals.iter().enumerate().map(largest).fold(0.0, f64::max);
         for (place, own) in intervals.iter().enumerate() {
             let length = function.length(place);
-            let mut reach = length.powf(own.len().saturating_sub(1) as f64);
+            let mut reach = libm::pow(length, own.len().saturating_sub(1) as f64);
             let mut kept = own.len();
             while kept > 1 && own[kept - 1].abs() * reach <= NEGLIGIBLE * scale {
                 kept -= 1;

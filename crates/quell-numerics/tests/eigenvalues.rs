@@ -1,8 +1,9 @@
 //! Eigenvalues of the own iteration against `faer` and against known eigenvalues.
 
 use num_complex::Complex64;
-use quell_numerics::eigen::{Decomposition, eigenvalues, modulus};
+use quell_numerics::eigen::{Decomposition, eigenvalues};
 use quell_numerics::matrix::Matrix;
+use quell_numerics::polar::modulus;
 
 /// Random numbers in (−1, 1) with a fixed seed: SplitMix64.
 struct Numbers(u64);

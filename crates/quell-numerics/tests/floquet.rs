@@ -1,9 +1,10 @@
 //! Floquet exponents: measured orders, exact solutions, validity of the error bounds.
 
 use num_complex::Complex64;
-use quell_numerics::eigen::{Decomposition, modulus};
+use quell_numerics::eigen::Decomposition;
 use quell_numerics::floquet::{ConstantFlow, Effort, Floquet, Phase};
 use quell_numerics::matrix::Matrix;
+use quell_numerics::polar::modulus;
 
 /// Random numbers in (−1, 1) with a fixed seed: SplitMix64.
 struct Numbers(u64);

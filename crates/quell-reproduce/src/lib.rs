@@ -18,6 +18,8 @@
 //! | `claims` | measurement of the claims, and the verdict on record of each of them |
 //! | `report` | the page with all results, and a summary table |
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -49,7 +49,7 @@ pub(super) fn effective_338a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
 pub(super) fn effective_339a(law: LawNumbers, v: f64, alpha: f64) -> f64 {
     let decay = exp(-PI * alpha / (2.0 * law.vm));
     2.0 * law.minimum / (PI * alpha) * v
-        + 2.0 * law.difference() / PI * law.vm / alpha * decay * (v / law.vm).sinh()
+        + 2.0 * law.difference() / PI * law.vm / alpha * decay * libm::sinh(v / law.vm)
 }
 
 /// (3.53a): slope of (3.38a). Wrong: exponent +1/2 instead of −1/2, a missing factor 1/(2√(γ−w)), and (3.38a) itself.

@@ -26,6 +26,8 @@
 //! assert_eq!(wrong[0].key, "belt.belt_velocity");
 //! ```
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod quantity;
 pub mod schema;
 pub mod study;

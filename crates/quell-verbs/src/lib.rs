@@ -14,6 +14,8 @@
 //! | [`cite`] | sources of a study's computations |
 //! | [`sound`] | the velocity of a motion as a sound file |
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod cite;
 pub mod contact_state;
 pub mod dataset;

@@ -13,6 +13,7 @@
 //! in Im y.
 
 use num_complex::Complex64;
+use quell_numerics::polar::square_root;
 use quell_numerics::roots::quadratic;
 
 /// The slow system of a pair of waves.
@@ -42,7 +43,7 @@ impl WavePair {
     pub(super) fn growth(&self, detuning: f64) -> f64 {
         let shift = Complex64::new(0.0, detuning);
         let half = 0.5 * (self.first - self.second + shift);
-        let root = (half * half + self.product).sqrt();
+        let root = square_root(half * half + self.product);
         0.5 * (self.first.re + self.second.re) + root.re.abs()
     }
 

@@ -4,8 +4,8 @@
 use num_complex::Complex64;
 use quell_linear::linearised::Linearised;
 use quell_model::System;
-use quell_numerics::continuation::modulus;
 use quell_numerics::eigen::Decomposition;
+use quell_numerics::polar::modulus;
 
 use super::periodic::sliding_state;
 use crate::decay::decays_at;

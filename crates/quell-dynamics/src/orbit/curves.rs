@@ -11,7 +11,8 @@ use quell_model::System;
 use quell_numerics::continuation::criticality::NoFirstLyapunov;
 use quell_numerics::continuation::curve::{BifurcationCurvePoint, Trace, trace};
 use quell_numerics::continuation::threshold::BifurcationKind;
-use quell_numerics::continuation::{Image, PeriodMap, modulus};
+use quell_numerics::continuation::{Image, PeriodMap};
+use quell_numerics::polar::modulus;
 
 use super::family::{BorderGuard, MotionSignature, NoImage, OrbitFamily, Shot, SystemAt, shot_of};
 use super::periodic::{near, scale_of};

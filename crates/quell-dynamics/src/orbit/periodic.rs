@@ -7,8 +7,9 @@ use quell_linear::steady::{NoSteadySliding, SteadySliding};
 use quell_model::System;
 use quell_numerics::continuation::branch::{End, Follow, follow};
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
-use quell_numerics::continuation::{modulus, multipliers, spectral_radius};
+use quell_numerics::continuation::{multipliers, spectral_radius};
 use quell_numerics::matrix::Matrix;
+use quell_numerics::polar::modulus;
 
 pub(crate) use super::family::scale_of;
 use super::family::{MotionSignature, NoImage, OrbitFamily, shot, shot_within, time_of};

@@ -13,8 +13,8 @@
 
 use num_complex::Complex64;
 use quell_model::System;
-use quell_numerics::continuation::modulus;
 use quell_numerics::eigen::Decomposition;
+use quell_numerics::polar::modulus;
 
 use super::family::{NoImage, shot, time_of};
 use super::periodic::{NoOrbit, Orbit, near, orbit_at, scale_of};

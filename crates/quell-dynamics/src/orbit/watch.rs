@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::spectrum::spectrum;
 use quell_model::System;
-use quell_numerics::continuation::modulus;
+use quell_numerics::polar::modulus;
 
 use super::recurrence::NEAR;
 use crate::motion::Motion;

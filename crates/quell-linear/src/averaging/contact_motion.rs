@@ -7,6 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 use num_complex::Complex64;
 use quell_model::system::{Contact, InputTarget};
 use quell_model::{System, Waveform};
+use quell_numerics::polar::{argument, from_polar};
 
 use super::averaged_law::curvature;
 use super::dithers::commensurate_groups;
@@ -131,7 +132,7 @@ impl GroupParts {
                 for (n, coefficient, contacts) in harmonics {
                     let ContactResponse { slip, load } = contacts[contact];
                     // A(b sin nθ + c cos nθ) is the real part of −iA(b + ic) e^{inθ}.
-                    let turned = Complex64::from_polar(1.0, f64::from(*n) * phase) * coefficient;
+                    let turned = from_polar(1.0, f64::from(*n) * phase) * coefficient;
                     let input = -Complex64::I * turned;
                     let sum = self.harmonics.entry(n * multiple).or_default();
                     sum[own] += input * slip_amplitude * slip;
@@ -144,7 +145,7 @@ impl GroupParts {
     fn motion(self, normal_load: f64, distortion: f64) -> PeriodicMotion {
         let Self { slip_terms: [mut tangential, mut normal], load_terms: mut load, harmonics } =
             self;
-        let size = quell_numerics::eigen::modulus;
+        let size = quell_numerics::polar::modulus;
         let largest = |part: usize| harmonics.values().fold(0.0, |m: f64, z| m.max(size(z[part])));
         let least = [0, 1, 2].map(|part| SMALLEST_HARMONIC * largest(part));
         for (&harmonic, [slip, own, fast_load]) in &harmonics {
@@ -155,12 +156,12 @@ impl GroupParts {
                 if amplitude > least {
                     // s = −|a| cos(θ + arg a), and the integral of a sine is −cos.
                     let wave = FastWave::Integral(Waveform::Sine);
-                    terms.push(SlipTerm { wave, amplitude, harmonic, phase: slip.arg() });
+                    terms.push(SlipTerm { wave, amplitude, harmonic, phase: argument(*slip) });
                 }
             }
             let amplitude = size(*fast_load);
             if amplitude > least[2] {
-                let phase = fast_load.arg() + FRAC_PI_2;
+                let phase = argument(*fast_load) + FRAC_PI_2;
                 let wave = LoadWave::Waveform(Waveform::Sine);
                 load.push(LoadTerm { wave, amplitude, harmonic, phase });
             }

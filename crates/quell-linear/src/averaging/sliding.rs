@@ -17,7 +17,8 @@ use num_complex::Complex64;
 use quell_model::System;
 use quell_model::profile::Wave;
 use quell_model::system::{Contact, Input, InputTarget};
-use quell_numerics::eigen::{EigenError, modulus};
+use quell_numerics::eigen::EigenError;
+use quell_numerics::polar::{from_polar, modulus};
 
 use super::error::AveragingError;
 use super::fast_inputs::{DitheredContact, FastInputs};
@@ -197,7 +198,7 @@ impl<'a> DitheredSystem<'a> {
             let frequency = harmonic * wave.frequency;
             let moved = harmonic::response(self.system, &self.sliding, target, frequency);
             let Some(moved) = moved else { continue };
-            let turned = Complex64::from_polar(wave.amplitude, harmonic * wave.phase) * coefficient;
+            let turned = from_polar(wave.amplitude, harmonic * wave.phase) * coefficient;
             let input = -Complex64::I * turned;
             let rate = Complex64::new(0.0, frequency);
             for (i, displacement) in moved.displacement.iter().enumerate() {

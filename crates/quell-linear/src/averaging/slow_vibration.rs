@@ -109,7 +109,7 @@ impl DescribedVibration {
     /// Amplitude of a row over the coordinates.
     pub fn amplitude(&self, row: &[f64]) -> f64 {
         let along: Complex64 = row.iter().zip(&self.shape).map(|(r, q)| q * *r).sum();
-        quell_numerics::eigen::modulus(along)
+        quell_numerics::polar::modulus(along)
     }
 }
 
@@ -204,7 +204,7 @@ impl<'a> SlowVibration<'a> {
         let along: Complex64 = tangent.iter().zip(&motion.shape).map(|(t, q)| q * *t).sum();
         // First-order equations have the slip velocity itself among their states.
         let slip = if linear.matrices().is_some() { along * motion.eigenvalue } else { along };
-        let size = quell_numerics::eigen::modulus(slip);
+        let size = quell_numerics::polar::modulus(slip);
         let shape = motion.shape.iter().map(|q| q * (cycle.amplitude / size)).collect();
         Ok(DescribedVibration { cycle, frequency: motion.frequency(), shape })
     }
@@ -218,7 +218,7 @@ fn oscillating(spectrum: &MotionSpectrum) -> impl Iterator<Item = &SmallMotion> 
 /// The motions that grow, without conjugates.
 fn growing(spectrum: &MotionSpectrum) -> impl Iterator<Item = &SmallMotion> {
     let grows = |motion: &&SmallMotion| {
-        let size = quell_numerics::eigen::modulus(motion.eigenvalue);
+        let size = quell_numerics::polar::modulus(motion.eigenvalue);
         motion.eigenvalue.im >= 0.0 && motion.eigenvalue.re > motion.error.max(NEUTRAL * size)
     };
     spectrum.motions.iter().filter(grows)

@@ -3,8 +3,8 @@
 use num_complex::Complex64;
 use quell_model::System;
 use quell_model::system::{Contact, InputTarget};
-use quell_numerics::eigen::modulus;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::polar::{argument, modulus};
 
 use super::no_verdict::{NoMeasuredVerdict, NoTurns};
 use super::receptance::Receptance;
@@ -294,14 +294,14 @@ pub(super) fn turns(
         eliminate(matrix, vec![Complex64::ZERO; size]).0
     };
     let mut last = determinant(0.0);
-    let start = last.arg();
+    let start = argument(last);
     let mut path = DeterminantPath { angle: start, closest: 0.0, distance: modulus(last) };
     let mut direct = driving_points(system, receptance, 0.0);
     for pair in receptance.frequencies().windows(2) {
         // A resonance between two frequencies turns the response of a point to a force at that point by half a turn.
         let here = driving_points(system, receptance, pair[1]);
         let turned = here.iter().zip(&direct).any(|(next, last)| {
-            *last != Complex64::ZERO && (next / last).arg().abs() > LARGEST_TURN
+            *last != Complex64::ZERO && argument(next / last).abs() > LARGEST_TURN
         });
         if turned {
             return Err(NoTurns::TooCoarse { frequency: pair[0] });
@@ -347,7 +347,7 @@ impl DeterminantPath {
         [from, to]: [(f64, Complex64); 2],
         halvings: u32,
     ) -> bool {
-        let turn = (to.1 / from.1).arg();
+        let turn = argument(to.1 / from.1);
         if turn.abs() > SMALL_TURN && halvings > 0 {
             let middle = 0.5 * (from.0 + to.0);
             let middle = (middle, determinant(middle));

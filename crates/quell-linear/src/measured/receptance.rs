@@ -1,6 +1,7 @@
 //! A measured receptance: displacement over force between points, over frequency.
 
 use num_complex::Complex64;
+use quell_numerics::polar::modulus;
 
 /// Measured frequencies that an interpolation takes: a rational function through six values has room for a lightly damped resonance
 /// among them, and for the smooth rest of the structure.
@@ -89,7 +90,7 @@ fn interpolated(frequencies: &[f64], values: &[Complex64], after: usize, at: f64
         rational(&frequencies[first..end], &values[first..end], at)
     };
     match (through(STENCIL), through(STENCIL - 2)) {
-        (Some(value), Some(fewer)) if (value - fewer).norm() < (value - line).norm() => value,
+        (Some(value), Some(fewer)) if modulus(value - fewer) < modulus(value - line) => value,
         _ => line,
     }
 }

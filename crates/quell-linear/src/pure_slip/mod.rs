@@ -13,10 +13,11 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 use quell_model::System;
 use quell_model::profile::Wave;
-use quell_numerics::eigen::{Decomposition, EigenError, modulus};
+use quell_numerics::eigen::{Decomposition, EigenError};
 use quell_numerics::extrapolation::{Unintegrated, integrate};
 use quell_numerics::matrix::Matrix;
 use quell_numerics::order::ascending;
+use quell_numerics::polar::{argument, modulus};
 
 use crate::averaging::{AveragingError, DitheredSystem, commensurate_groups};
 use crate::growth::Growth;
@@ -304,7 +305,7 @@ fn exponents(turn: &Turn, period: f64) -> Result<Vec<SlipExponent>, EigenError> 
             let multiplier = pair.value;
             let size = modulus(multiplier);
             let rounding = decomposition.error_of(&pair) + pair.condition * turn.error * norm;
-            let exponent = Complex64::new(libm::log(size), multiplier.arg()) / period;
+            let exponent = Complex64::new(libm::log(size), argument(multiplier)) / period;
             SlipExponent { exponent, error: rounding / (size * period), multiplier }
         })
         .collect();

@@ -9,8 +9,8 @@
 //! the sum of two eigenvalues is smooth, so that the coupling changes a growth rate by at most |D|/2.
 
 use num_complex::Complex64;
-use quell_numerics::eigen::modulus;
 use quell_numerics::order::{ascending, ascending_by};
+use quell_numerics::polar::{modulus, square_root};
 
 use super::family::{Family, TrackedPoint, at};
 
@@ -82,7 +82,7 @@ impl Parabola {
     /// Where two eigenvalues are closest near the origin, and the width of the approach.
     fn approach(&self, wide: f64) -> Option<(f64, f64)> {
         let Self { origin, constant, linear, square } = *self;
-        let root = (linear * linear - square * constant * 4.0).sqrt();
+        let root = square_root(linear * linear - square * constant * 4.0);
         let sign = if (linear.conj() * root).re < 0.0 { -1.0 } else { 1.0 };
         let large = -(linear + root * sign) * 0.5;
         let (near, far) = (constant / large, large / square);

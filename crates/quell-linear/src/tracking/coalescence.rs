@@ -5,8 +5,8 @@
 //! is simple and is found as accurately as any root.
 
 use num_complex::Complex64;
-use quell_numerics::eigen::modulus;
 use quell_numerics::order::ascending_by;
+use quell_numerics::polar::modulus;
 use quell_numerics::roots::{Closeness, find_root};
 
 use super::family::{Family, TrackedPoint, at};

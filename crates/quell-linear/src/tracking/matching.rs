@@ -1,7 +1,7 @@
 //! Matches the eigenvalues of neighbouring values of a parameter.
 
 use num_complex::Complex64;
-use quell_numerics::eigen::modulus;
+use quell_numerics::polar::modulus;
 
 use super::family::{Family, TrackedPoint, at};
 

@@ -10,10 +10,11 @@ use std::fmt;
 use num_complex::Complex64;
 
 use super::threshold::BifurcationKind;
-use super::{Image, PeriodMap, modulus};
+use super::{Image, PeriodMap};
 use crate::eigen::Decomposition;
 use crate::matrix::Matrix;
 use crate::normal_form::{CriticalPair, DerivativesAlong, FormCoefficient, flip, neimark_sacker};
+use crate::polar::modulus;
 
 /// First step over the typical size of a state: large enough that halvings pass the step at which truncation and rounding balance. If
 /// it leaves the region of the signature, the halvings return to it; a much smaller one would leave rounding alone.

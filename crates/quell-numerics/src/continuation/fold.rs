@@ -14,8 +14,8 @@ use num_complex::Complex64;
 
 use super::PeriodMap;
 use super::criticality::{FIRST_STEP, NoFirstLyapunov, Stencil, critical, extrapolated, image_of};
-use crate::eigen::modulus;
 use crate::normal_form::FormCoefficient;
+use crate::polar::modulus;
 
 /// The side of a fold on which two fixed points exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -33,8 +33,10 @@ use std::fmt::Debug;
 
 use num_complex::Complex64;
 
+use crate::polar::modulus;
+
 use crate::eigen::eigenvalues;
-pub use crate::eigen::modulus;
+
 use crate::matrix::Matrix;
 use crate::order::descending_by;
 

@@ -21,8 +21,9 @@ use num_complex::Complex64;
 
 use super::shooting::largest;
 use super::threshold::BifurcationKind;
-use super::{Image, PeriodMap, modulus, multipliers};
+use super::{Image, PeriodMap, multipliers};
 use crate::matrix::Matrix;
+use crate::polar::modulus;
 
 /// First step of the differences over the typical size of what is moved.
 const FIRST_STEP: f64 = 2e-3;

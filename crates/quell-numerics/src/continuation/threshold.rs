@@ -8,7 +8,8 @@
 
 use num_complex::Complex64;
 
-use super::{Image, modulus, multipliers};
+use super::{Image, multipliers};
+use crate::polar::modulus;
 
 /// Largest distance of the pair of a Neimark–Sacker bifurcation from the unit circle.
 pub(super) const ON_THE_CIRCLE: f64 = 1e-5;

@@ -20,6 +20,7 @@ use num_complex::Complex64;
 
 use crate::dispatch::{Work, with_fused_multiply_add};
 use crate::matrix::Matrix;
+use crate::polar::modulus;
 use hessenberg::{Reflectors, stride_of};
 pub use rightmost::Rightmost;
 pub(crate) use shifted::{Shifted, Split};
@@ -279,9 +280,4 @@ pub(crate) fn product_without_conjugation(x: &Split, y: &Split) -> Complex64 {
         im += x.re[i] * y.im[i] + x.im[i] * y.re[i];
     }
     Complex64::new(re, im)
-}
-
-/// |z|, with the same bits on every machine.
-pub fn modulus(z: Complex64) -> f64 {
-    libm::hypot(z.re, z.im)
 }

@@ -10,7 +10,8 @@
 
 use num_complex::Complex64;
 
-use super::{EigenError, complex_eigenvalues, modulus};
+use super::{EigenError, complex_eigenvalues};
+use crate::polar::modulus;
 
 /// Maximum number of QL sweeps for one eigenvalue before the dense iteration is used; two or three are usual.
 const SWEEPS: usize = 60;

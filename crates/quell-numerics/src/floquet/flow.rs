@@ -88,7 +88,7 @@ impl ConstantFlow {
             vu,
             vau,
             nilpotent,
-            fastest: values.iter().fold(0.0, |most, z| crate::eigen::modulus(*z).max(most)),
+            fastest: values.iter().fold(0.0, |most, z| crate::polar::modulus(*z).max(most)),
             strongest: values.iter().fold(0.0, |most, z| z.re.abs().max(most)),
             rounding: f64::EPSILON * decomposition.norm(),
         };
@@ -169,7 +169,7 @@ fn modes(decomposition: &Decomposition) -> Vec<EigenPair> {
     let near = NEARLY_EQUAL * decomposition.norm();
     let mut modes = Vec::with_capacity(open.len());
     while let Some(&first) = open.first() {
-        let close = |i: usize| crate::eigen::modulus(values[i] - values[first]) <= near;
+        let close = |i: usize| crate::polar::modulus(values[i] - values[first]) <= near;
         let group: Vec<usize> = open.iter().copied().filter(|&i| close(i)).collect();
         open.retain(|&i| !close(i));
         let mut pairs: Vec<EigenPair> = group

@@ -29,9 +29,10 @@ pub use varying::{Sinusoid, Strength, VaryingFlow, VaryingPiece};
 
 use num_complex::Complex64;
 
-use crate::eigen::{Decomposition, EigenError, eigenvalues, modulus};
+use crate::eigen::{Decomposition, EigenError, eigenvalues};
 use crate::matrix::Matrix;
 use crate::order::descending_by;
+use crate::polar::modulus;
 use processing::Generator;
 use shared::TrackedMultiplier;
 use steps::Steps;

@@ -4,9 +4,10 @@
 //! remaining error is rounding: that of the eigenvalues of the map, and ε‖A_k‖ for the phase of each exponential, both times
 //! the condition number of the multiplier.
 
-use crate::eigen::{Decomposition, EigenError, modulus};
+use crate::eigen::{Decomposition, EigenError};
 use crate::matrix::Matrix;
 use crate::order::descending_by;
+use crate::polar::modulus;
 
 use super::steps::exponential_of_matrix;
 use super::{Exponent, FLOOR, conditions};

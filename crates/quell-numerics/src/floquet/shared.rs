@@ -8,9 +8,10 @@
 use num_complex::Complex64;
 
 use crate::dispatch::{Work, with_fused_multiply_add};
-use crate::eigen::{Decomposition, Shifted, Split, modulus, product_without_conjugation};
+use crate::eigen::{Decomposition, Shifted, Split, product_without_conjugation};
 use crate::groups::dot;
 use crate::matrix::Matrix;
+use crate::polar::modulus;
 
 /// Maximum number of iterations; two or three are usual.
 const ITERATIONS: usize = 12;

@@ -160,11 +160,11 @@ fn correct_formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         printed,
         square.coefficient,
     );
-    let printed = 2.0 * b0 / (PI * alpha) + 2.0 * b1 / (PI * alpha) * decay * (v / vm).cosh();
+    let printed = 2.0 * b0 / (PI * alpha) + 2.0 * b1 / (PI * alpha) * decay * libm::cosh(v / vm);
     sheet.formula(["3.57a", "(3.57a)", "its slope"], printed, square.slope);
     let outside = definition(LawKind::Decreasing, Waveform::Square, 0.4, alpha)?.coefficient;
     let printed =
-        b0 + 2.0 * b1 * vm / (PI * alpha) * exp(-0.4 / vm) * (PI * alpha / (2.0 * vm)).sinh();
+        b0 + 2.0 * b1 * vm / (PI * alpha) * exp(-0.4 / vm) * libm::sinh(PI * alpha / (2.0 * vm));
     sheet.formula(
         ["3.39b", "(3.39b)", "μ̄, decreasing law, square, v_r = 0.4, α = 0.2"],
         printed,

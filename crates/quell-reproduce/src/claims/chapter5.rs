@@ -226,7 +226,7 @@ fn largest(disc: &Disc, speeds: [f64; 2], frictions: &[f64]) -> Result<f64, Fail
 
 /// Tangential dither.
 pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
-    let reversed = |theta: f64| theta.cos().signum() * theta.cos() / PI;
+    let reversed = |theta: f64| libm::cos(theta).signum() * libm::cos(theta) / PI;
     let breaks = [FRAC_PI_2, 3.0 * FRAC_PI_2];
     let fundamental = integrate(reversed, 0.0, TAU, &breaks, &QuadratureOptions::default())
         .map_err(|why| failed("claims", &why))?
@@ -362,7 +362,7 @@ pub(super) fn floquet(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 pub(super) fn tangential_force(sheet: &mut ClaimSheet) {
     // The largest |φ″| over a cycle by second differences, whose step is a fixed fraction of the cycle.
     let peak = |n1: f64, omega: f64| {
-        let angle = |time: f64| omega.powf(n1) * (omega * time).sin();
+        let angle = |time: f64| libm::pow(omega, n1) * libm::sin(omega * time);
         let step = 1e-3 / omega;
         let second = |k: i32| {
             let time = f64::from(k) * TAU / omega / 1000.0;
@@ -370,8 +370,9 @@ pub(super) fn tangential_force(sheet: &mut ClaimSheet) {
         };
         (0..1000).map(|k| second(k).abs()).fold(0.0, f64::max)
     };
-    let orders: Vec<f64> =
-        [-0.9, -0.5, -0.1].map(|n1| (peak(n1, 1e4) / peak(n1, 1e2)).ln() / 1e2f64.ln()).to_vec();
+    let orders: Vec<f64> = [-0.9, -0.5, -0.1]
+        .map(|n1| libm::log(peak(n1, 1e4) / peak(n1, 1e2)) / libm::log(1e2))
+        .to_vec();
     sheet.statement(
         ["5.29-order", "(5.29)", "D_T = O(ω^n₂) with 1 < n₂ < 2 for φ₀ = O(ω^n₁) with −1 < n₁ < 0"],
         format!("n₂ at n₁ = −0.9, −0.5, −0.1: {}", list(&orders)),

@@ -58,7 +58,7 @@ pub(super) fn transients(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             let belt = belt(LawKind::Decreasing, LIGHT, 1.0, Some(dither))?;
             let settings = AttractorSettings::new(&belt).map_err(|why| failed("claims", &why))?;
             let base = settings.base.as_ref().map_err(|why| failed("claims", why))?;
-            Ok(-settings.section.period / base.radius.ln())
+            Ok(-settings.section.period / libm::log(base.radius))
         })
         .collect::<Result<Vec<f64>, Failure>>()?;
     sheet

@@ -15,7 +15,7 @@ const FLOOR: f64 = 1e-7;
 /// Largest growth rate of the revived tongue below a meeting speed. Such tongues are narrow and close to the meeting, so the speeds
 /// are clustered there, and then about the best of them.
 fn revived_growth(disc: &Disc, meeting: f64, printed: f64) -> Result<f64, Failure> {
-    let at = |exponent: f64| growth(disc, meeting * (1.0 - 10f64.powf(exponent)), printed);
+    let at = |exponent: f64| growth(disc, meeting * (1.0 - libm::pow(10.0, exponent)), printed);
     let (mut from, mut to, mut points) = (-6.0, -1.0, 200);
     let mut best = (0.0, f64::NEG_INFINITY);
     for _ in 0..3 {

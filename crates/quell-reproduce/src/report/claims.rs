@@ -44,7 +44,7 @@ pub(super) fn write(page: &mut HtmlPage, written: &[WrittenEntry]) {
 /// A tolerance as a percentage, or as a power of ten if small.
 fn tolerance(share: f64) -> String {
     if share < 1e-4 {
-        symbols(&format!("10^{{−{:.0}}}", -share.log10()))
+        symbols(&format!("10^{{−{:.0}}}", -libm::log10(share)))
     } else {
         format!("{:.0} %", 100.0 * share)
     }

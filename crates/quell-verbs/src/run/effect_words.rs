@@ -49,7 +49,7 @@ pub(crate) fn residual_in_words(residual_vibration: Option<f64>, band: &str) -> 
 
 /// 20 lg E, in dB; `None` if E is zero.
 pub(crate) fn level_of(ratio: f64) -> Option<f64> {
-    (ratio > 0.0).then(|| 20.0 * ratio.log10())
+    (ratio > 0.0).then(|| 20.0 * libm::log10(ratio))
 }
 
 /// A share as a percentage with three digits.

@@ -2,10 +2,11 @@
 
 use super::super::arc::{MEETING, distance, normalised};
 use super::super::threshold::{BifurcationKind, ON_THE_CIRCLE, SMOOTH, Tests, confirmed};
-use super::super::{PeriodMap, modulus, spectral_radius};
+use super::super::{PeriodMap, spectral_radius};
 use super::points::{BranchSide, SpecialPoint};
 use super::run::{BranchSolution, ContinuationRun, MaybeSolution};
 use crate::order::ascending_by;
+use crate::polar::modulus;
 use crate::roots::{Closeness, find_root, minimise};
 
 /// First distance beyond a grazing point at which the branch is searched for, in the scaled parameter, and its growth. Where a stick begins

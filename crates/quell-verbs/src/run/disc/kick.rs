@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::System;
-use quell_numerics::eigen::modulus;
+use quell_numerics::polar::modulus;
 
 use super::overflowed;
 use super::watch::SteadyLevel;

@@ -258,7 +258,7 @@ fn nearest_cycle<'c>(
     let rate = system.one_mass().map_or(1.0, |mass| mass.rate());
     let off = |cycle: &FoundMotion| {
         let states = cycle.samples.states.chunks(state.len());
-        let off = states.map(|at| (rate * (at[0] - state[0])).hypot(at[1] - state[1]));
+        let off = states.map(|at| libm::hypot(rate * (at[0] - state[0]), at[1] - state[1]));
         off.fold(f64::INFINITY, f64::min)
     };
     cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))

@@ -154,5 +154,5 @@ fn level(with: f64, without: f64) -> Result<f64, NoBandLevel> {
     if with == 0.0 {
         return Err(NoBandLevel::QuietWith);
     }
-    Ok(20.0 * (with / without).log10())
+    Ok(20.0 * libm::log10(with / without))
 }

@@ -51,7 +51,7 @@ pub(crate) fn of(system: &System) -> Result<SystemModes, Failure> {
 
 /// |λ|.
 pub fn natural(motion: &SmallMotion) -> f64 {
-    quell_numerics::continuation::modulus(motion.eigenvalue)
+    quell_numerics::polar::modulus(motion.eigenvalue)
 }
 
 impl SystemModes {

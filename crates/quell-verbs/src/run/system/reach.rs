@@ -7,7 +7,7 @@ use quell_linear::harmonic::response;
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::units::Quantity;
-use quell_numerics::continuation::modulus;
+use quell_numerics::polar::modulus;
 use quell_numerics::roots::{Closeness, minimise};
 use serde_json::Value as Json;
 

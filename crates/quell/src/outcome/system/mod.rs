@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 
 use quell_linear::spectrum::SmallMotion;
 
-use quell_numerics::eigen::modulus;
+use quell_numerics::polar::modulus;
 
 use super::table::{NumberColumns, figure, frequency_heading, rate_heading};
 use crate::study::UnitSystem;
