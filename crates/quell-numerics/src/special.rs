@@ -133,19 +133,6 @@ mod tests {
         assert!(rows > 700, "only {rows} rows");
     }
 
-    /// Compares two independent implementations of I₀ and I₁.
-    #[test]
-    fn bessel_agrees_with_amos() {
-        for k in 0..400 {
-            let x = libm::exp(-7.0 + 0.035 * f64::from(k));
-            let z = num_complex::Complex::new(x, 0.0);
-            let i0 = complex_bessel::besseli_scaled(0.0, z).expect("in range").re;
-            let i1 = complex_bessel::besseli_scaled(1.0, z).expect("in range").re;
-            assert!(relative(bessel_i0_scaled(x), i0) < 2e-15, "I0 at {x}");
-            assert!(relative(bessel_i1_scaled(x), i1) < 2e-15, "I1 at {x}");
-        }
-    }
-
     /// erf + erfc = 1; erfcx and Dawson from their differential equations y' = 2xy − 2/√π, y' = 1 − 2xy.
     #[test]
     fn identities() {
