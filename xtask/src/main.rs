@@ -14,6 +14,7 @@ mod meaning;
 mod names;
 mod package;
 mod places;
+mod platforms;
 mod python;
 mod ratchet;
 mod source;
@@ -32,6 +33,7 @@ tasks:
   licences           check the licences of all dependencies against the accepted ones
   names [OPTION]     check that the names of types are unique in the workspace
   package            pack every crate for publication, in order
+  platforms [NAME]   compare the answers on Windows and 64-bit ARM, under wine and qemu, with those here byte by byte
   python             build the wheel, install it into target/python, and run the Python tests
   snapshot [OPTION]  compare the answers of every study in studies/, through every verb, with those on record
   test               check everything that must hold before a change is merged, tests last;
@@ -79,6 +81,9 @@ fn run(root: &Path, arguments: &[&str]) -> Option<Result<(), String>> {
         ("coverage", name) if !name.is_some_and(|name| name.starts_with('-')) => {
             coverage::run(root, name)
         }
+        ("platforms", name) if !name.is_some_and(|name| name.starts_with('-')) => {
+            platforms::run(root, name)
+        }
         ("cycles", _) => cycles::run(root, mode?),
         ("english", _) => english::run(root, mode?),
         ("names", _) => names::run(root, mode?),
@@ -109,6 +114,7 @@ mod tests {
             &["layers", "--bless"],
             &["cycles", "--all"],
             &["coverage", "--all"],
+            &["platforms", "--all"],
             &["twins", "--list"],
             &["test", "--quick", "more"],
         ] {

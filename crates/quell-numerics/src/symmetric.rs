@@ -66,7 +66,7 @@ pub fn pencil_eigenvalues(m: &SymmetricMatrix, k: &SymmetricMatrix) -> Option<Ve
     if m.size() != size {
         return None;
     }
-    let reduced = with_fused_multiply_add(Reduction { m, k })?;
+    let reduced = with_fused_multiply_add(PencilReduction { m, k })?;
     let (diagonal, beside) = hessenberg_bands(&reduced)?;
     let complex = |value: f64| Complex64::new(value, 0.0);
     let tridiagonal = Tridiagonal {
@@ -79,12 +79,12 @@ pub fn pencil_eigenvalues(m: &SymmetricMatrix, k: &SymmetricMatrix) -> Option<Ve
 }
 
 /// L⁻¹ M L⁻ᵀ; `None` if K is not positive definite.
-struct Reduction<'a> {
+struct PencilReduction<'a> {
     m: &'a SymmetricMatrix,
     k: &'a SymmetricMatrix,
 }
 
-impl Work for Reduction<'_> {
+impl Work for PencilReduction<'_> {
     type Output = Option<Matrix>;
 
     #[inline(always)]
