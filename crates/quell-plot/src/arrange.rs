@@ -8,6 +8,7 @@ use super::canvas::Rectangle;
 use super::colour_bar::ColourBar;
 use super::figure::{CaptionPlacement, Figure, Legend, Panel, SharedLegend, Sharing, Size};
 use super::font_sizes::FontSizes;
+use super::geometry::{FrameSize, PlotRange};
 use super::grid::{FrameGrid, columns_of};
 use super::layer::Layer;
 use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayout};
@@ -28,23 +29,18 @@ struct Margins {
 }
 
 /// Space that a figure needs around its frames, across and upright.
-fn surroundings(
-    figure: &Figure,
-    columns: usize,
-    frame: (f64, f64),
-    sizes: FontSizes,
-) -> (f64, f64) {
+fn surroundings(figure: &Figure, columns: usize, frame: FrameSize, sizes: FontSizes) -> FrameSize {
     let (_, margins) = measure(figure, columns, frame, sizes);
     let across: f64 = margins.left.iter().chain(&margins.right).sum();
-    let width = across + frame.0 * columns as f64;
-    let body = (margins.left[0], width - margins.right[columns - 1]);
+    let width = across + frame.width * columns as f64;
+    let body = PlotRange::new(margins.left[0], width - margins.right[columns - 1]);
     let outer = outer(figure, width, body, frame, sizes);
     let below = match figure.legend {
         SharedLegend::Below => outer.shared_height,
         _ => 0.0,
     };
     let margins: f64 = margins.top.iter().chain(&margins.bottom).sum();
-    (across, margins + outer.head + outer.caption_height + below)
+    FrameSize::new(across, margins + outer.head + outer.caption_height + below)
 }
 
 /// Arranges a figure.
@@ -56,11 +52,12 @@ pub(super) fn arrange(figure: &Figure) -> FigureLayout {
     let body_left = margins.left.first().copied().unwrap_or(0.0);
     let width = match figure.size {
         Size::Wide(width) => width,
-        _ => (margins.left.iter().chain(&margins.right).sum::<f64>() + frame.0 * columns as f64)
+        _ => (margins.left.iter().chain(&margins.right).sum::<f64>()
+            + frame.width * columns as f64)
             .ceil(),
     };
     let last_right = margins.right.last().copied().unwrap_or(0.0);
-    let body = (body_left, width - last_right);
+    let body = PlotRange::new(body_left, width - last_right);
     let outer = outer(figure, width, body, frame, sizes);
 
     let mut top = outer.head;
@@ -71,7 +68,7 @@ pub(super) fn arrange(figure: &Figure) -> FigureLayout {
             left += margins.left[column];
             if let Some(layout) = panels.get_mut(row * columns + column) {
                 layout.frame =
-                    Rectangle { left, top, right: left + frame.0, bottom: top + frame.1 };
+                    Rectangle { left, top, right: left + frame.width, bottom: top + frame.height };
                 if let LegendLayout::Box(area) = &mut layout.legend {
                     *area = Rectangle {
                         left: area.left + left,
@@ -81,9 +78,9 @@ pub(super) fn arrange(figure: &Figure) -> FigureLayout {
                     };
                 }
             }
-            left += frame.0 + margins.right[column];
+            left += frame.width + margins.right[column];
         }
-        top += frame.1 + margins.bottom[row];
+        top += frame.height + margins.bottom[row];
     }
     let shared_top = match figure.legend {
         SharedLegend::Below => top,
@@ -120,8 +117,8 @@ struct Outer {
 fn outer(
     figure: &Figure,
     width: f64,
-    body: (f64, f64),
-    frame: (f64, f64),
+    body: PlotRange,
+    frame: FrameSize,
     sizes: FontSizes,
 ) -> Outer {
     let line = |size: u32| 1.35 * f64::from(size);
@@ -142,7 +139,7 @@ fn outer(
     let shared_height = if shared.is_empty() {
         0.0
     } else {
-        legend::rows_height(&shared, body.1 - body.0, sizes) + 6.0
+        legend::rows_height(&shared, body.upper - body.lower, sizes) + 6.0
     };
     let mut head = EDGE + line(sizes.figure_title) * title.len() as f64;
     if figure.legend == SharedLegend::Above {
@@ -163,7 +160,7 @@ fn lines(source: &str, size: u32, bold: bool, room: f64) -> Vec<RichText> {
 fn measure(
     figure: &Figure,
     columns: usize,
-    frame: (f64, f64),
+    frame: FrameSize,
     sizes: FontSizes,
 ) -> (Vec<PanelLayout>, Margins) {
     let count = figure.panels.len();
@@ -193,7 +190,7 @@ fn measure(
         if columns != intended && layout.title.is_empty() {
             // A panel that has left its column takes the title of that column.
             let head = &figure.panels[index % intended];
-            layout.title = lines(&head.title, sizes.title, false, frame.0);
+            layout.title = lines(&head.title, sizes.title, false, frame.width);
         }
         widen(&mut margins, column, &layout, sizes);
         layouts.push(layout);
@@ -216,31 +213,32 @@ fn measure(
 fn lay_out_panel(
     figure: &Figure,
     panel: &Panel,
-    (x_limits, y_limits): AxisLimits,
-    frame: (f64, f64),
+    limits: AxisLimits,
+    frame: FrameSize,
     sizes: FontSizes,
     (x_numbers, y_numbers): (bool, bool),
 ) -> PanelLayout {
     let number_size = f64::from(sizes.number);
-    let x_ticks = Ticks::of(&panel.x, x_limits, Room::Across(frame.0, number_size));
-    let y_ticks = Ticks::of(&panel.y, y_limits, Room::Upright(frame.1));
+    let AxisLimits { x: x_limits, y: y_limits } = limits;
+    let x_ticks = Ticks::of(&panel.x, x_limits, Room::Across(frame.width, number_size));
+    let y_ticks = Ticks::of(&panel.y, y_limits, Room::Upright(frame.height));
     let widest =
         y_ticks.major.iter().map(|(_, label)| label.width(number_size, false)).fold(0.0, f64::max);
     let label = |wanted: bool, text: String, room: f64| {
         if wanted { lines(&text, sizes.label, false, room) } else { Vec::new() }
     };
     // The exponent of x stands at the right of its label, which is centred.
-    let label_room = x_ticks.exponent_label().map_or(frame.0 + 1.6 * EDGE, |exponent| {
-        frame.0 - 2.0 * (exponent.width(number_size, false) + 4.0)
+    let label_room = x_ticks.exponent_label().map_or(frame.width + 1.6 * EDGE, |exponent| {
+        frame.width - 2.0 * (exponent.width(number_size, false) + 4.0)
     });
     let entries = match (figure.legend, panel.legend) {
         (SharedLegend::None, Legend::Auto | Legend::Inside(_) | Legend::Above) => {
-            legend::entries([LegendPanel { panel, limits: (x_limits, y_limits), frame }])
+            legend::entries([LegendPanel { panel, limits, frame }])
         }
         _ => Vec::new(),
     };
     let mut layout = PanelLayout {
-        frame: Rectangle { left: 0.0, top: 0.0, right: frame.0, bottom: frame.1 },
+        frame: Rectangle { left: 0.0, top: 0.0, right: frame.width, bottom: frame.height },
         x_limits,
         y_limits,
         x_ticks,
@@ -248,13 +246,13 @@ fn lay_out_panel(
         x_numbers,
         y_numbers,
         x_label: label(x_numbers, panel.x.label(), label_room),
-        y_label: label(y_numbers, panel.y.label(), frame.1 + 30.0),
-        title: lines(&panel.title, sizes.title, false, frame.0),
+        y_label: label(y_numbers, panel.y.label(), frame.height + 30.0),
+        title: lines(&panel.title, sizes.title, false, frame.width),
         y_label_distance: NUMBER_GAP + widest + LABEL_GAP + 0.2 * f64::from(sizes.label),
         entries,
         legend: LegendLayout::None,
         legend_overhang: (0.0, 0.0),
-        bar: ColourBar::of(panel, frame.1, sizes),
+        bar: ColourBar::of(panel, frame.height, sizes),
     };
     if !layout.entries.is_empty() {
         layout.legend = match panel.legend {
@@ -282,7 +280,8 @@ fn free_position(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Legen
         Bottom, BottomLeft, BottomRight, Left, Right, Top, TopLeft, TopRight,
     };
     let size = legend::box_size(&layout.entries, f64::INFINITY, sizes);
-    let fits = size.0 <= 0.7 * layout.frame.width() && size.1 <= 0.7 * layout.frame.height();
+    let fits =
+        size.width <= 0.7 * layout.frame.width() && size.height <= 0.7 * layout.frame.height();
     let obstacles = Obstacles::of(panel, layout, sizes);
     [TopRight, TopLeft, BottomRight, BottomLeft, Right, Left, Top, Bottom]
         .into_iter()

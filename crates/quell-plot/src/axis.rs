@@ -1,5 +1,7 @@
 //! Axes: name, symbol, unit, scale and limits of one coordinate.
 
+use super::geometry::PlotRange;
+
 /// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scale {
@@ -117,7 +119,7 @@ impl PlotAxis {
     /// The limits for layers of this extent (`None` if there are no layers).
     ///
     /// `margin` is the fraction of the length that is added at each end determined by the layers.
-    pub(super) fn limits(&self, extent: Option<(f64, f64)>, margin: f64) -> (f64, f64) {
+    pub(super) fn limits(&self, extent: Option<PlotRange>, margin: f64) -> PlotRange {
         let (fixed_lower, fixed_upper) = match self.range {
             AxisRange::Auto => (None, None),
             AxisRange::Between(lower, upper) => (Some(lower), Some(upper)),
@@ -130,10 +132,10 @@ impl PlotAxis {
         if let (Some(one), Some(other)) = (fixed_lower, fixed_upper)
             && one != other
         {
-            return (one.min(other), one.max(other));
+            return PlotRange::new(one.min(other), one.max(other));
         }
         let fallback = if self.scale == Scale::Log { (0.1, 1.0) } else { (0.0, 1.0) };
-        let (least, greatest) = extent.unwrap_or((
+        let PlotRange { lower: least, upper: greatest } = extent.unwrap_or(PlotRange::new(
             fixed_lower
                 .or(fixed_upper.map(|upper| self.step_away(upper, -1.0)))
                 .unwrap_or(fallback.0),
@@ -142,7 +144,7 @@ impl PlotAxis {
                 .unwrap_or(fallback.1),
         ));
         if extent.is_none() && least < greatest {
-            return (least, greatest);
+            return PlotRange::new(least, greatest);
         }
         let (mut lower, mut upper) =
             (fixed_lower.unwrap_or(least), fixed_upper.unwrap_or(greatest));
@@ -155,7 +157,7 @@ impl PlotAxis {
         }
         let width = self.along(upper) - self.along(lower);
         if width <= 1e-12 * self.along(upper).abs().max(self.along(lower).abs()) {
-            return (self.step_away(lower, -1.0), self.step_away(upper, 1.0));
+            return PlotRange::new(self.step_away(lower, -1.0), self.step_away(upper, 1.0));
         }
         // For a quantity that starts at zero (an amplitude, a time), the lower limit stays zero.
         let keeps_zero = self.scale == Scale::Linear && lower == 0.0;
@@ -165,23 +167,23 @@ impl PlotAxis {
         if fixed_upper.is_none() {
             upper = self.back(self.along(upper) + margin * width);
         }
-        let rounded = self.round_ends((lower, upper));
-        (
-            if fixed_lower.is_none() && !keeps_zero { rounded.0 } else { lower },
-            if fixed_upper.is_none() { rounded.1 } else { upper },
+        let rounded = self.round_ends(PlotRange::new(lower, upper));
+        PlotRange::new(
+            if fixed_lower.is_none() && !keeps_zero { rounded.lower } else { lower },
+            if fixed_upper.is_none() { rounded.upper } else { upper },
         )
     }
 
     /// Moves the limits outwards to nearby round values: 99.999 becomes 100.
-    fn round_ends(&self, (lower, upper): (f64, f64)) -> (f64, f64) {
+    fn round_ends(&self, PlotRange { lower, upper }: PlotRange) -> PlotRange {
         const CLOSE: f64 = 0.015;
         if self.scale == Scale::Log {
-            return (lower, upper);
+            return PlotRange::new(lower, upper);
         }
         let width = upper - lower;
         let step = 10f64.powf((width / 5.0).log10().floor()) * 2.0;
         let (below, above) = ((lower / step).floor() * step, (upper / step).ceil() * step);
-        (
+        PlotRange::new(
             if lower - below < CLOSE * width { below } else { lower },
             if above - upper < CLOSE * width { above } else { upper },
         )
@@ -220,14 +222,19 @@ pub(super) struct Mapping {
     slope: f64,
     first_pixel: f64,
     /// Least and greatest value shown.
-    pub(super) limits: (f64, f64),
+    pub(super) limits: PlotRange,
 }
 
 impl Mapping {
-    pub(super) fn new(axis: &PlotAxis, limits: (f64, f64), pixels: (f64, f64)) -> Self {
-        let origin = axis.along(limits.0);
-        let slope = (pixels.1 - pixels.0) / (axis.along(limits.1) - origin);
-        Self { scale: axis.scale, origin, slope, first_pixel: pixels.0, limits }
+    pub(super) fn new(
+        axis: &PlotAxis,
+        limits: PlotRange,
+        first_pixel: f64,
+        last_pixel: f64,
+    ) -> Self {
+        let origin = axis.along(limits.lower);
+        let slope = (last_pixel - first_pixel) / (axis.along(limits.upper) - origin);
+        Self { scale: axis.scale, origin, slope, first_pixel, limits }
     }
 
     /// Position on the axis, before scaling to pixels, of a pixel.
@@ -260,9 +267,12 @@ mod tests {
     #[test]
     fn limits_snap_to_round_values_and_zero() {
         let axis = PlotAxis::new("time");
-        assert_eq!(axis.limits(Some((0.0, 99.999)), 0.0), (0.0, 100.0));
-        assert_eq!(axis.limits(Some((0.0, 93.0)), 0.0), (0.0, 93.0));
-        assert_eq!(axis.clone().up_to(50.0).limits(Some((-1.0, 99.0)), 0.0).1, 50.0);
+        assert_eq!(axis.limits(Some(PlotRange::new(0.0, 99.999)), 0.0), PlotRange::new(0.0, 100.0));
+        assert_eq!(axis.limits(Some(PlotRange::new(0.0, 93.0)), 0.0), PlotRange::new(0.0, 93.0));
+        assert_eq!(
+            axis.clone().up_to(50.0).limits(Some(PlotRange::new(-1.0, 99.0)), 0.0).upper,
+            50.0
+        );
     }
 
     #[test]
@@ -274,7 +284,8 @@ mod tests {
             PlotAxis::new("x").between(2.0, 2.0),
         ] {
             for extent in [None, Some((3.0, 3.0)), Some((1e-300, 1e-300)), Some((0.5, 1.0))] {
-                let (lower, upper) = axis.limits(extent, 0.05);
+                let extent = extent.map(|(lower, upper)| PlotRange { lower, upper });
+                let PlotRange { lower, upper } = axis.limits(extent, 0.05);
                 assert!(
                     lower < upper && lower.is_finite() && upper.is_finite(),
                     "{axis:?} {extent:?}"
@@ -285,12 +296,16 @@ mod tests {
 
     #[test]
     fn reversed_limits_are_swapped() {
-        assert_eq!(PlotAxis::new("x").between(3.0, 1.0).limits(Some((0.0, 9.0)), 0.1), (1.0, 3.0));
+        assert_eq!(
+            PlotAxis::new("x").between(3.0, 1.0).limits(Some(PlotRange::new(0.0, 9.0)), 0.1),
+            PlotRange::new(1.0, 3.0)
+        );
     }
 
     #[test]
     fn a_log_axis_omits_values_that_are_not_positive() {
-        let mapping = Mapping::new(&PlotAxis::new("x").log(), (1.0, 100.0), (0.0, 200.0));
+        let mapping =
+            Mapping::new(&PlotAxis::new("x").log(), PlotRange::new(1.0, 100.0), 0.0, 200.0);
         assert_eq!(mapping.pixel(0.0), None);
         assert!((mapping.pixel(10.0).unwrap_or(f64::NAN) - 100.0).abs() < 1e-9);
     }

@@ -1,5 +1,6 @@
 //! The canvas on which a figure is drawn: takes shapes in pixels, returns SVG text.
 
+use super::geometry::PlotPoint;
 use std::fmt::{self, Write as _};
 
 use super::palette::{Colour, FRAME};
@@ -88,7 +89,12 @@ impl Canvas {
         self.document.describe(text);
     }
 
-    pub(super) fn text(&mut self, label: &RichText, (x, y): (f64, f64), setting: TextStyle) {
+    pub(super) fn text(
+        &mut self,
+        label: &RichText,
+        PlotPoint { x, y }: PlotPoint,
+        setting: TextStyle,
+    ) {
         if label.is_empty() {
             return;
         }
@@ -242,14 +248,14 @@ const LONG_PATH: usize = 10_000;
 /// Writes polylines as one SVG path; closed ones end at their start.
 ///
 /// Each step is relative to the previous rounded point, so that rounding errors do not accumulate.
-pub(super) fn path(pieces: &[Vec<(f64, f64)>], closed: bool) -> String {
+pub(super) fn path(pieces: &[Vec<PlotPoint>], closed: bool) -> String {
     let count: usize = pieces.iter().map(Vec::len).sum();
     let grain: i64 = if count > LONG_PATH { 10 } else { 1 };
     let mut path = String::with_capacity(count * 9);
     for piece in pieces {
         let mut last: Option<(i64, i64)> = None;
         for point in piece {
-            let position = (hundredths(point.0, grain), hundredths(point.1, grain));
+            let position = (hundredths(point.x, grain), hundredths(point.y, grain));
             let step = match last {
                 None => {
                     path.push('M');
@@ -307,13 +313,17 @@ mod tests {
 
     #[test]
     fn a_path_is_short_and_exact_to_a_hundredth() {
-        let pieces = vec![vec![(1.0, 2.0), (1.5, 1.25), (-0.004, 1.25)], vec![(3.0, 4.0)]];
+        let pieces = vec![
+            vec![PlotPoint::new(1.0, 2.0), PlotPoint::new(1.5, 1.25), PlotPoint::new(-0.004, 1.25)],
+            vec![PlotPoint::new(3.0, 4.0)],
+        ];
         assert_eq!(path(&pieces, false), "M1 2l0.5-0.75l-1.5 0M3 4h0.01");
     }
 
     #[test]
     fn rounding_errors_do_not_accumulate() {
-        let piece: Vec<_> = (0..30_000).map(|step| (0.013 * f64::from(step), 0.0)).collect();
+        let piece: Vec<_> =
+            (0..30_000).map(|step| PlotPoint::new(0.013 * f64::from(step), 0.0)).collect();
         let text = path(&[piece], false);
         let end: f64 = text
             .trim_start_matches('M')

@@ -4,6 +4,7 @@ use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::colouring::{ColourMap, SHADES, Spread};
 use super::figure::Panel;
 use super::font_sizes::FontSizes;
+use super::geometry::PlotPoint;
 use super::layer::Layer;
 use super::palette::{Colour, FRAME};
 use super::raster::Raster;
@@ -102,22 +103,35 @@ impl ColourBar {
         canvas.image(bar, image.address(&self.colours));
         let middle = 0.5 * (left + right);
         if self.overflows.1 {
-            let point = vec![(left, bar.top), (middle, frame.top), (right, bar.top)];
+            let point = vec![
+                PlotPoint::new(left, bar.top),
+                PlotPoint::new(middle, frame.top),
+                PlotPoint::new(right, bar.top),
+            ];
             canvas.fill(&path(&[point], true), self.colours[SHADES - 1], 1.0);
         }
         if self.overflows.0 {
-            let point = vec![(left, bar.bottom), (middle, frame.bottom), (right, bar.bottom)];
+            let point = vec![
+                PlotPoint::new(left, bar.bottom),
+                PlotPoint::new(middle, frame.bottom),
+                PlotPoint::new(right, bar.bottom),
+            ];
             canvas.fill(&path(&[point], true), self.colours[0], 1.0);
         }
-        let mut outline = vec![(left, bar.top)];
-        outline.extend(self.overflows.1.then_some((middle, frame.top)));
-        outline.extend([(right, bar.top), (right, bar.bottom)]);
-        outline.extend(self.overflows.0.then_some((middle, frame.bottom)));
-        outline.push((left, bar.bottom));
+        let mut outline = vec![PlotPoint::new(left, bar.top)];
+        outline.extend(self.overflows.1.then_some(PlotPoint::new(middle, frame.top)));
+        outline.extend([PlotPoint::new(right, bar.top), PlotPoint::new(right, bar.bottom)]);
+        outline.extend(self.overflows.0.then_some(PlotPoint::new(middle, frame.bottom)));
+        outline.push(PlotPoint::new(left, bar.bottom));
         let position = |share: f64| bar.bottom - share * bar.height();
-        let marks = |shares: &mut dyn Iterator<Item = f64>, length: f64| -> Vec<Vec<(f64, f64)>> {
+        let marks = |shares: &mut dyn Iterator<Item = f64>, length: f64| -> Vec<Vec<PlotPoint>> {
             shares
-                .map(|share| vec![(right, position(share)), (right - length, position(share))])
+                .map(|share| {
+                    vec![
+                        PlotPoint::new(right, position(share)),
+                        PlotPoint::new(right - length, position(share)),
+                    ]
+                })
                 .collect()
         };
         let minor = marks(&mut self.minor.iter().copied(), 0.55 * TICK);
@@ -137,19 +151,19 @@ impl ColourBar {
     ) {
         let number = f64::from(sizes.number);
         for (share, label) in &self.major {
-            let at = (bar.right + NUMBER_GAP, position(*share) + 0.36 * number);
+            let at = PlotPoint::new(bar.right + NUMBER_GAP, position(*share) + 0.36 * number);
             canvas.text(label, at, TextStyle::new(sizes.number, TextAnchor::Start));
         }
         if self.has_exponent() {
             let label = RichText::parse(&format!("$×10^{{{}}}$", self.exponent));
-            let at = (bar.left, frame.top - 7.0);
+            let at = PlotPoint::new(bar.left, frame.top - 7.0);
             canvas.text(&label, at, TextStyle::new(sizes.number, TextAnchor::Start));
         }
         let size = f64::from(sizes.label);
         let middle = 0.5 * (frame.top + frame.bottom);
         let first = bar.right + NUMBER_GAP + self.widest + LABEL_GAP + 0.8 * size;
         for (line, label) in self.label.iter().enumerate() {
-            let at = (first + 1.25 * size * line as f64, middle);
+            let at = PlotPoint::new(first + 1.25 * size * line as f64, middle);
             let setting = TextStyle::new(sizes.label, TextAnchor::Middle).rotated(-90.0);
             canvas.text(label, at, setting);
         }
@@ -158,7 +172,7 @@ impl ColourBar {
 
 /// Ticks at zero and at powers of ten on both sides of it; `None` if no power of ten lies on the bar.
 fn signed(colour_map: &ColourMap, size: f64, height: f64) -> Option<Ticks> {
-    let upper = colour_map.range.1.abs().max(colour_map.range.0.abs());
+    let upper = colour_map.range.upper.abs().max(colour_map.range.lower.abs());
     if !(size > 0.0 && upper.is_finite() && upper > size) {
         return None;
     }
@@ -171,20 +185,22 @@ fn signed(colour_map: &ColourMap, size: f64, height: f64) -> Option<Ticks> {
     for exponent in (first..=last).rev() {
         let value = 10f64.powi(exponent);
         let clear = |at: f64| (at - position(0.0)).abs() >= APART;
-        if value <= colour_map.range.1 && clear(position(value)) && above - position(value) >= APART
+        if value <= colour_map.range.upper
+            && clear(position(value))
+            && above - position(value) >= APART
         {
             above = position(value);
             major.push((value, RichText::parse(&format!("$10^{{{exponent}}}$"))));
-        } else if value <= colour_map.range.1 {
+        } else if value <= colour_map.range.upper {
             minor.push(value);
         }
-        if -value >= colour_map.range.0
+        if -value >= colour_map.range.lower
             && clear(position(-value))
             && position(-value) - below >= APART
         {
             below = position(-value);
             major.push((-value, RichText::parse(&format!("$-10^{{{exponent}}}$"))));
-        } else if -value >= colour_map.range.0 {
+        } else if -value >= colour_map.range.lower {
             minor.push(-value);
         }
     }

@@ -1,6 +1,7 @@
 //! Colouring: the mapping of values to colours in a heatmap.
 
 use super::axis::{PlotAxis, Scale};
+use super::geometry::PlotRange;
 use super::palette::{Colour, PlotRole};
 use super::shades::{Palette, outcome_opacity, tint};
 
@@ -61,7 +62,7 @@ pub struct Shading {
     pub spread: Spread,
     /// Numbers at the ends of the palette; `None` for the extremes of the values. A diverging
     /// palette is always symmetric about zero.
-    pub range: Option<(f64, f64)>,
+    pub range: Option<PlotRange>,
     /// Another colour for numbers below this one.
     pub below: Option<(f64, Tint)>,
     /// Words in the legend for negative and for positive numbers of a palette whose middle is zero.
@@ -85,7 +86,7 @@ impl Shading {
     /// Sets the numbers at the ends of the palette.
     #[must_use]
     pub fn range(mut self, lower: f64, upper: f64) -> Self {
-        self.range = Some((lower, upper));
+        self.range = Some(PlotRange::new(lower, upper));
         self
     }
 
@@ -138,14 +139,14 @@ pub(super) const CLEAR: u8 = 255;
 pub(super) struct ColourMap {
     colouring: Colouring,
     /// Values at the ends of the palette.
-    pub(super) range: (f64, f64),
+    pub(super) range: PlotRange,
 }
 
 impl ColourMap {
     /// The colouring of values between these extremes.
-    pub(super) fn new(colouring: &Colouring, extremes: Option<(f64, f64)>) -> Self {
+    pub(super) fn new(colouring: &Colouring, extremes: Option<PlotRange>) -> Self {
         let range = match colouring {
-            Colouring::Outcomes(outcomes) => (0.0, outcomes.len() as f64),
+            Colouring::Outcomes(outcomes) => PlotRange::new(0.0, outcomes.len() as f64),
             Colouring::Shaded(shading) => range_of(shading, extremes),
         };
         Self { colouring: colouring.clone(), range }
@@ -153,7 +154,7 @@ impl ColourMap {
 
     /// Position of a value between the ends of the palette, from 0 to 1.
     pub(super) fn share(&self, value: f64) -> f64 {
-        let (lower, upper) = self.range;
+        let PlotRange { lower, upper } = self.range;
         let Colouring::Shaded(shading) = &self.colouring else {
             return 0.0;
         };
@@ -214,18 +215,21 @@ impl ColourMap {
     }
 
     /// Whether there are values below and above the range that get the end colours of the palette.
-    pub(super) fn overflows(&self, extremes: Option<(f64, f64)>) -> (bool, bool) {
+    pub(super) fn overflows(&self, extremes: Option<PlotRange>) -> (bool, bool) {
         let Colouring::Shaded(shading) = &self.colouring else {
             return (false, false);
         };
-        let (least, most) = extremes.unwrap_or(self.range);
-        let slack = 1e-9 * (self.range.1 - self.range.0);
-        (least < self.range.0 - slack && shading.below.is_none(), most > self.range.1 + slack)
+        let PlotRange { lower: least, upper: most } = extremes.unwrap_or(self.range);
+        let slack = 1e-9 * (self.range.upper - self.range.lower);
+        (
+            least < self.range.lower - slack && shading.below.is_none(),
+            most > self.range.upper + slack,
+        )
     }
 
     /// The axis of the colour bar.
     pub(super) fn axis(&self, quantity: &PlotAxis) -> PlotAxis {
-        let axis = quantity.clone().between(self.range.0, self.range.1);
+        let axis = quantity.clone().between(self.range.lower, self.range.upper);
         match self.spread() {
             Spread::Log => axis.log(),
             _ => PlotAxis { scale: Scale::Linear, ..axis },
@@ -241,10 +245,10 @@ impl ColourMap {
 }
 
 /// Values at the ends of the palette, given or determined from the extremes, in increasing order and distinct.
-fn range_of(shading: &Shading, extremes: Option<(f64, f64)>) -> (f64, f64) {
-    let finite = |range: &(f64, f64)| range.0.is_finite() && range.1.is_finite();
-    let found = shading.range.filter(finite).or(extremes).unwrap_or((0.0, 1.0));
-    let (mut lower, mut upper) = (found.0.min(found.1), found.0.max(found.1));
+fn range_of(shading: &Shading, extremes: Option<PlotRange>) -> PlotRange {
+    let finite = |range: &PlotRange| range.lower.is_finite() && range.upper.is_finite();
+    let found = shading.range.filter(finite).or(extremes).unwrap_or(PlotRange::new(0.0, 1.0));
+    let (mut lower, mut upper) = (found.lower.min(found.upper), found.lower.max(found.upper));
     if shading.palette.is_two_sided() {
         upper = upper.abs().max(lower.abs());
         lower = -upper;
@@ -255,17 +259,17 @@ fn range_of(shading: &Shading, extremes: Option<(f64, f64)>) -> (f64, f64) {
         lower = if lower > 0.0 { lower } else { 1e-6 * upper };
     }
     if lower < upper {
-        return (lower, upper);
+        return PlotRange::new(lower, upper);
     }
     let away = if lower == 0.0 { 1.0 } else { 0.1 * lower.abs() };
-    (lower - away, upper + away)
+    PlotRange::new(lower - away, upper + away)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn colour_map(shading: Shading, extremes: (f64, f64)) -> ColourMap {
+    fn colour_map(shading: Shading, extremes: PlotRange) -> ColourMap {
         ColourMap::new(&Colouring::Shaded(shading), Some(extremes))
     }
 
@@ -273,8 +277,8 @@ mod tests {
     fn a_diverging_palette_is_centred_on_zero() {
         for spread in [Spread::Linear, Spread::SignedLog(1e-3)] {
             let shading = Shading::new(Palette::Diverging).spread(spread);
-            let colour_map = colour_map(shading, (-0.2, 3.0));
-            assert_eq!(colour_map.range, (-3.0, 3.0));
+            let colour_map = colour_map(shading, PlotRange::new(-0.2, 3.0));
+            assert_eq!(colour_map.range, PlotRange::new(-3.0, 3.0));
             assert!((colour_map.share(0.0) - 0.5).abs() < 1e-15);
             assert!((colour_map.share(0.7) + colour_map.share(-0.7) - 1.0).abs() < 1e-15);
             assert_eq!((colour_map.share(3.0), colour_map.share(-9.0)), (1.0, 0.0));
@@ -283,18 +287,27 @@ mod tests {
 
     #[test]
     fn a_log_spread_is_linear_in_the_logarithm() {
-        let colour_map = colour_map(Shading::default().spread(Spread::Log), (1e-4, 1.0));
+        let colour_map =
+            colour_map(Shading::default().spread(Spread::Log), PlotRange::new(1e-4, 1.0));
         assert!((colour_map.share(1e-2) - 0.5).abs() < 1e-12);
         assert_eq!(colour_map.share(-1.0), 0.0);
     }
 
     #[test]
     fn every_range_has_distinct_ends() {
-        for extremes in [(0.0, 0.0), (3.0, 3.0), (-1e308, 1e308), (-2.0, -1.0)] {
+        for extremes in [
+            PlotRange::new(0.0, 0.0),
+            PlotRange::new(3.0, 3.0),
+            PlotRange::new(-1e308, 1e308),
+            PlotRange::new(-2.0, -1.0),
+        ] {
             for spread in [Spread::Linear, Spread::Log, Spread::SignedLog(1.0)] {
                 for palette in [Palette::Viridis, Palette::Diverging] {
                     let colour_map = colour_map(Shading::new(palette).spread(spread), extremes);
-                    assert!(colour_map.range.0 < colour_map.range.1, "{extremes:?} {spread:?}");
+                    assert!(
+                        colour_map.range.lower < colour_map.range.upper,
+                        "{extremes:?} {spread:?}"
+                    );
                     assert!(colour_map.share(0.3).is_finite());
                 }
             }
@@ -304,19 +317,21 @@ mod tests {
     #[test]
     fn values_below_the_scale_can_have_their_own_colour() {
         let tint = Tint::new(PlotRole::Unstable, "worse");
-        let colour_map =
-            colour_map(Shading::new(Palette::Pale).range(0.0, 1.0).below(0.0, tint), (-1.0, 2.0));
+        let colour_map = colour_map(
+            Shading::new(Palette::Pale).range(0.0, 1.0).below(0.0, tint),
+            PlotRange::new(-1.0, 2.0),
+        );
         assert_eq!(colour_map.index(-0.1), BELOW);
         assert_eq!(colour_map.index(0.0), 0);
         assert_eq!(usize::from(colour_map.index(5.0)), SHADES - 1);
-        assert_eq!(colour_map.overflows(Some((-1.0, 2.0))), (false, true));
+        assert_eq!(colour_map.overflows(Some(PlotRange::new(-1.0, 2.0))), (false, true));
         assert_eq!(colour_map.colours().len(), 256);
     }
 
     #[test]
     fn an_unlisted_outcome_is_transparent() {
         let outcomes = Colouring::Outcomes(vec![Tint::new(PlotRole::Stable, "stable")]);
-        let colour_map = ColourMap::new(&outcomes, Some((0.0, 1.0)));
+        let colour_map = ColourMap::new(&outcomes, Some(PlotRange::new(0.0, 1.0)));
         assert_eq!(
             (colour_map.index(0.0), colour_map.index(1.0), colour_map.index(-1.0)),
             (0, CLEAR, CLEAR)

@@ -4,6 +4,7 @@
 //! (symbols between dollars). Frames and axis limits are those of the figure that this crate draws. The
 //! Python package draws figures from this data with matplotlib.
 
+use super::geometry::{PlotPoint, PlotRange};
 use serde_json::{Value as Json, json};
 
 use super::arrange::arrange;
@@ -49,7 +50,7 @@ impl Figure {
             },
             "width": layout.width,
             "height": layout.height,
-            "body": [layout.body.0, layout.body.1],
+            "body": [layout.body.lower, layout.body.upper],
             "legend_top": layout.shared_top,
             "caption_top": layout.caption_top,
             "sizes": {
@@ -96,7 +97,7 @@ fn described_axis(axis: &PlotAxis) -> Json {
     json!({ "label": axis.label(), "log": axis.scale == Scale::Log, "ticks": axis.ticks })
 }
 
-fn limits((lower, upper): (f64, f64)) -> Json {
+fn limits(PlotRange { lower, upper }: PlotRange) -> Json {
     json!([lower, upper])
 }
 
@@ -175,7 +176,7 @@ fn described_note(note: &Note) -> Json {
     json!({
         "kind": "note",
         "text": note.text,
-        "at": [note.at.0, note.at.1],
+        "at": [note.at.x, note.at.y],
         "colour": hex(note.role.map_or(FRAME, PlotRole::colour)),
     })
 }
@@ -211,7 +212,7 @@ fn described_heatmap(heatmap: &Heatmap) -> Json {
             json!({
                 "signs": signs,
                 "shades": shades,
-                "range": [colour_map.range.0, colour_map.range.1],
+                "range": [colour_map.range.lower, colour_map.range.upper],
                 "spread": spread,
                 "below": below,
             })
@@ -248,9 +249,9 @@ fn described_contours(contours: &Contours) -> Json {
 }
 
 /// Points as a list of x and a list of y.
-fn columns(points: &[(f64, f64)]) -> Json {
-    let x: Vec<f64> = points.iter().map(|point| point.0).collect();
-    let y: Vec<f64> = points.iter().map(|point| point.1).collect();
+fn columns(points: &[PlotPoint]) -> Json {
+    let x: Vec<f64> = points.iter().map(|point| point.x).collect();
+    let y: Vec<f64> = points.iter().map(|point| point.y).collect();
     json!([x, y])
 }
 
@@ -274,8 +275,14 @@ mod tests {
             Field::new(vec![0.0, 1.0], vec![0.0, 1.0], vec![Some(1.0), None, Some(3.0), None])
                 .expect("a field");
         let panel = Panel::new(PlotAxis::new("time").symbol("τ"), PlotAxis::new("x").log())
-            .with(Polyline::new(PlotRole::Undithered, [(0.0, 1.0), (1.0, 2.0)]).label("without"))
-            .with(Points::new(PlotRole::Dithered, [(0.5, 1.5)]))
+            .with(
+                Polyline::new(
+                    PlotRole::Undithered,
+                    [PlotPoint::new(0.0, 1.0), PlotPoint::new(1.0, 2.0)],
+                )
+                .label("without"),
+            )
+            .with(Points::new(PlotRole::Dithered, [PlotPoint::new(0.5, 1.5)]))
             .with(Region::across_x(PlotRole::Stable, 0.0, f64::INFINITY))
             .with(ReferenceLine::vertical(0.5).label("here"))
             .with(Note::new(0.5, 1.0, "a note"))

@@ -6,6 +6,7 @@ use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::envelope::{self, CurveTrace, band_opacity};
 use super::figure::{CaptionPlacement, Figure, Panel};
 use super::font_sizes::FontSizes;
+use super::geometry::PlotPoint;
 use super::layer::{Layer, Marker, Orientation, Polyline, ReferenceLine, Region, RegionShape};
 use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayout};
 use super::obstacles::Obstacles;
@@ -34,7 +35,7 @@ pub(super) fn figure(figure: &Figure) -> String {
 }
 
 fn draw_outer(canvas: &mut Canvas, layout: &FigureLayout) {
-    let middle = 0.5 * (layout.body.0 + layout.body.1);
+    let middle = 0.5 * (layout.body.lower + layout.body.upper);
     let size = f64::from(layout.sizes.figure_title);
     for (number, line) in layout.title.iter().enumerate() {
         let baseline = 10.0 + 0.85 * size + 1.35 * size * number as f64;
@@ -50,13 +51,13 @@ fn draw_outer(canvas: &mut Canvas, layout: &FigureLayout) {
         } else {
             0.5 * layout.width
         };
-        canvas.text(line, (middle, baseline), setting);
+        canvas.text(line, PlotPoint::new(middle, baseline), setting);
     }
-    let room = layout.body.1 - layout.body.0;
+    let room = layout.body.upper - layout.body.lower;
     legend::draw_rows(
         canvas,
         &layout.shared,
-        (layout.body.0, layout.shared_top),
+        PlotPoint::new(layout.body.lower, layout.shared_top),
         room,
         layout.sizes,
     );
@@ -65,7 +66,7 @@ fn draw_outer(canvas: &mut Canvas, layout: &FigureLayout) {
         let baseline = layout.caption_top + 0.9 * size + 1.35 * size * number as f64;
         let setting =
             TextStyle { colour: FAINT, ..TextStyle::new(layout.sizes.caption, TextAnchor::Start) };
-        canvas.text(line, (10.0, baseline), setting);
+        canvas.text(line, PlotPoint::new(10.0, baseline), setting);
     }
 }
 
@@ -120,14 +121,14 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
         LegendLayout::Above => {
             let (left, room) = layout.legend_span();
             let height = legend::rows_height(&layout.entries, room, sizes);
-            let corner = (left, layout.frame.top - height - 2.0);
+            let corner = PlotPoint::new(left, layout.frame.top - height - 2.0);
             legend::draw_rows(canvas, &layout.entries, corner, room, sizes);
         }
     }
 }
 
 /// Draws a curve: strokes, and bands where it oscillates too fast to be resolved.
-fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<(f64, f64)>]) {
+fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<PlotPoint>]) {
     const EDGE: f64 = 0.6;
     let stroke = legend::stroke_of(line);
     let mut strokes = Vec::new();
@@ -135,7 +136,7 @@ fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<(f64, f64)>]) 
         match trace {
             CurveTrace::Line(points) => strokes.push(points),
             CurveTrace::Band { upper, lower } => {
-                let outline: Vec<(f64, f64)> =
+                let outline: Vec<PlotPoint> =
                     upper.iter().chain(lower.iter().rev()).copied().collect();
                 let opacity = band_opacity(stroke.colour);
                 canvas.fill(&path(&[outline], true), stroke.colour, opacity);
@@ -150,17 +151,16 @@ fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<(f64, f64)>]) 
 fn draw_region(canvas: &mut Canvas, region: &Region, x: &Mapping, y: &Mapping, frame: Rectangle) {
     // An end outside the axis, or one that the axis cannot represent, extends to the frame.
     let strip = |mapping: &Mapping, from: f64, to: f64, low: f64, high: f64| {
-        let from = mapping.pixel(from.max(mapping.limits.0)).unwrap_or(low);
-        let to = mapping.pixel(to.min(mapping.limits.1)).unwrap_or(high);
+        let from = mapping.pixel(from.max(mapping.limits.lower)).unwrap_or(low);
+        let to = mapping.pixel(to.min(mapping.limits.upper)).unwrap_or(high);
         (from, to)
     };
     let path = match &region.shape {
         RegionShape::Polygon(corners) => {
-            let inside = |&(at, value): &(f64, f64)| {
+            let inside = |&PlotPoint { x: at, y: value }: &PlotPoint| {
                 // On a logarithmic axis zero lies infinitely far down.
                 let at = x.pixel(at).unwrap_or(frame.left - 10.0);
-                let value = y.pixel(value).unwrap_or(frame.bottom + 10.0);
-                (at, value)
+                PlotPoint::new(at, y.pixel(value).unwrap_or(frame.bottom + 10.0))
             };
             path(&[thin::polyline(&corners.iter().map(inside).collect::<Vec<_>>())], true)
         }
@@ -194,14 +194,14 @@ fn draw_frame(
     let mut minor_marks = Vec::new();
     let upright = |at: f64, length: f64| {
         [
-            vec![(at, frame.bottom), (at, frame.bottom - length)],
-            vec![(at, frame.top), (at, frame.top + length)],
+            vec![PlotPoint::new(at, frame.bottom), PlotPoint::new(at, frame.bottom - length)],
+            vec![PlotPoint::new(at, frame.top), PlotPoint::new(at, frame.top + length)],
         ]
     };
     let level = |at: f64, length: f64| {
         [
-            vec![(frame.left, at), (frame.left + length, at)],
-            vec![(frame.right, at), (frame.right - length, at)],
+            vec![PlotPoint::new(frame.left, at), PlotPoint::new(frame.left + length, at)],
+            vec![PlotPoint::new(frame.right, at), PlotPoint::new(frame.right - length, at)],
         ]
     };
     for (value, _) in &layout.x_ticks.major {
@@ -236,13 +236,17 @@ fn draw_numbers(
         for (value, label) in &layout.x_ticks.major {
             let Some(at) = x.pixel(*value) else { continue };
             let baseline = frame.bottom + NUMBER_GAP + 0.76 * size;
-            canvas.text(label, (at, baseline), TextStyle::new(sizes.number, TextAnchor::Middle));
+            canvas.text(
+                label,
+                PlotPoint::new(at, baseline),
+                TextStyle::new(sizes.number, TextAnchor::Middle),
+            );
         }
         if let Some(label) = layout.x_ticks.exponent_label() {
             let below = frame.bottom + NUMBER_GAP + size + LABEL_GAP + 0.8 * f64::from(sizes.label);
             canvas.text(
                 &label,
-                (frame.right, below),
+                PlotPoint::new(frame.right, below),
                 TextStyle::new(sizes.number, TextAnchor::End),
             );
         }
@@ -250,11 +254,11 @@ fn draw_numbers(
     if layout.y_numbers {
         for (value, label) in &layout.y_ticks.major {
             let Some(at) = y.pixel(*value) else { continue };
-            let position = (frame.left - NUMBER_GAP, at + 0.36 * size);
+            let position = PlotPoint::new(frame.left - NUMBER_GAP, at + 0.36 * size);
             canvas.text(label, position, TextStyle::new(sizes.number, TextAnchor::End));
         }
         if let Some(label) = layout.y_ticks.exponent_label() {
-            let position = (frame.left - 2.0, frame.top - 6.0);
+            let position = PlotPoint::new(frame.left - 2.0, frame.top - 6.0);
             canvas.text(&label, position, TextStyle::new(sizes.number, TextAnchor::End));
         }
     }
@@ -267,19 +271,23 @@ fn draw_labels(canvas: &mut Canvas, layout: &PanelLayout, sizes: FontSizes) {
     let setting = TextStyle::new(sizes.label, TextAnchor::Middle);
     let first = frame.bottom + NUMBER_GAP + f64::from(sizes.number) + LABEL_GAP + 0.8 * size;
     for (number, line) in layout.x_label.iter().enumerate() {
-        canvas.text(line, (middle.0, first + 1.25 * size * number as f64), setting);
+        canvas.text(line, PlotPoint::new(middle.0, first + 1.25 * size * number as f64), setting);
     }
     let upwards = setting.rotated(-90.0);
     for (number, line) in layout.y_label.iter().rev().enumerate() {
         let at = frame.left - layout.y_label_distance - 1.25 * size * number as f64;
-        canvas.text(line, (at, middle.1), upwards);
+        canvas.text(line, PlotPoint::new(at, middle.1), upwards);
     }
     let mut baseline = frame.top - 6.0;
     if layout.legend == LegendLayout::Above {
         baseline -= legend::rows_height(&layout.entries, layout.legend_span().1, sizes) + 2.0;
     }
     for line in layout.title.iter().rev() {
-        canvas.text(line, (frame.left, baseline), TextStyle::new(sizes.title, TextAnchor::Start));
+        canvas.text(
+            line,
+            PlotPoint::new(frame.left, baseline),
+            TextStyle::new(sizes.title, TextAnchor::Start),
+        );
         baseline -= 1.3 * f64::from(sizes.title);
     }
 }
@@ -301,11 +309,11 @@ fn draw_texts(
         match layer {
             Layer::Note(note) => {
                 let shown = |value: f64, mapping: &Mapping| {
-                    value >= mapping.limits.0 && value <= mapping.limits.1
+                    value >= mapping.limits.lower && value <= mapping.limits.upper
                 };
                 let placed = projection::note_area(note, (&x, &y), layout.frame, sizes);
                 let Some((area, lines)) = placed else { continue };
-                if shown(note.at.0, &x) && shown(note.at.1, &y) {
+                if shown(note.at.x, &x) && shown(note.at.y, &y) {
                     let colour = note.role.map_or(FRAME, PlotRole::colour);
                     draw_outlined_text(canvas, &lines, area, colour, sizes);
                 }
@@ -344,9 +352,9 @@ fn leader(canvas: &mut Canvas, panel: &Panel, rule: &ReferenceLine, label: Recta
     });
     if others.into_iter().any(|at| around.left <= at && at <= around.right) {
         let middle = 0.5 * (label.top + label.bottom);
-        let line = path(&[vec![(near, middle), (own, middle)]], false);
+        let line = path(&[vec![PlotPoint::new(near, middle), PlotPoint::new(own, middle)]], false);
         canvas.stroke(&line, &Stroke::solid(rule_ink(rule), 0.9));
-        marks::markers(canvas, &[(own, middle)], rule.role, Marker::Disc, 3.0);
+        marks::markers(canvas, &[PlotPoint::new(own, middle)], rule.role, Marker::Disc, 3.0);
     }
 }
 
@@ -369,7 +377,7 @@ fn draw_outlined_text(
     let size = f64::from(sizes.note);
     for (number, line) in lines.iter().rev().enumerate() {
         let baseline = area.bottom - 0.14 * size - LINE_HEIGHT * size * number as f64;
-        canvas.text(line, (area.left, baseline), setting);
+        canvas.text(line, PlotPoint::new(area.left, baseline), setting);
     }
     canvas.end_group();
 }

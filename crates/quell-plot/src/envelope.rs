@@ -4,6 +4,7 @@
 //! oscillation with the pixels (moiré). Where a curve swings more often than that, the band between its upper and its lower
 //! extremes is what the eye can take from it.
 
+use super::geometry::PlotPoint;
 use super::palette::{Colour, PlotRole};
 
 /// Largest distance along x between an extreme and the next for which the strokes merge (pixels).
@@ -22,19 +23,19 @@ pub(super) fn band_opacity(colour: Colour) -> f64 {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum CurveTrace {
     /// A stroke.
-    Line(Vec<(f64, f64)>),
+    Line(Vec<PlotPoint>),
     /// The band between two curves, both from left to right.
     Band {
         /// Through the upper extremes.
-        upper: Vec<(f64, f64)>,
+        upper: Vec<PlotPoint>,
         /// Through the lower extremes.
-        lower: Vec<(f64, f64)>,
+        lower: Vec<PlotPoint>,
     },
 }
 
 /// Splits a curve into strokes and bands. A curve that reverses in x is one stroke.
-pub(super) fn traces(points: &[(f64, f64)]) -> Vec<CurveTrace> {
-    if points.windows(2).any(|pair| pair[1].0 < pair[0].0) {
+pub(super) fn traces(points: &[PlotPoint]) -> Vec<CurveTrace> {
+    if points.windows(2).any(|pair| pair[1].x < pair[0].x) {
         return vec![CurveTrace::Line(points.to_vec())];
     }
     let extremes = extremes(points);
@@ -56,20 +57,20 @@ pub(super) fn traces(points: &[(f64, f64)]) -> Vec<CurveTrace> {
 
 /// Indices of the points at which the curve turns from rising to falling or back, with both ends. Reversals by less than
 /// [`LEAST_SWING`] are passed over.
-fn extremes(points: &[(f64, f64)]) -> Vec<usize> {
+fn extremes(points: &[PlotPoint]) -> Vec<usize> {
     let mut found = vec![0];
     // The lowest and the highest point since the last extreme.
     let (mut lowest, mut highest) = (0, 0);
     let mut rising: Option<bool> = None;
     for (index, point) in points.iter().enumerate() {
-        if point.1 < points[lowest].1 {
+        if point.y < points[lowest].y {
             lowest = index;
         }
-        if point.1 > points[highest].1 {
+        if point.y > points[highest].y {
             highest = index;
         }
-        let has_risen = point.1 - points[lowest].1 >= LEAST_SWING;
-        let has_fallen = points[highest].1 - point.1 >= LEAST_SWING;
+        let has_risen = point.y - points[lowest].y >= LEAST_SWING;
+        let has_fallen = points[highest].y - point.y >= LEAST_SWING;
         let turned = match rising {
             None if has_risen || has_fallen => Some((has_risen, None)),
             Some(true) if has_fallen => Some((false, Some(highest))),
@@ -89,12 +90,12 @@ fn extremes(points: &[(f64, f64)]) -> Vec<usize> {
 }
 
 /// Ranges of extremes (first and last) between which every swing merges with its neighbours.
-fn dense_runs(points: &[(f64, f64)], extremes: &[usize]) -> Vec<(usize, usize)> {
+fn dense_runs(points: &[PlotPoint], extremes: &[usize]) -> Vec<(usize, usize)> {
     let merges: Vec<bool> = extremes
         .windows(2)
         .map(|pair| {
             let (from, to) = (points[pair[0]], points[pair[1]]);
-            to.0 - from.0 < MERGING
+            to.x - from.x < MERGING
         })
         .collect();
     let mut runs = Vec::new();
@@ -109,12 +110,12 @@ fn dense_runs(points: &[(f64, f64)], extremes: &[usize]) -> Vec<(usize, usize)> 
 }
 
 /// The band between the upper and the lower ones of these extremes, which alternate; the first and the last belong to both sides.
-fn band(points: &[(f64, f64)], extremes: &[usize]) -> CurveTrace {
-    let found: Vec<(f64, f64)> = extremes.iter().map(|&index| points[index]).collect();
-    let side = |is_outer: fn(f64, f64) -> bool| -> Vec<(f64, f64)> {
+fn band(points: &[PlotPoint], extremes: &[usize]) -> CurveTrace {
+    let found: Vec<PlotPoint> = extremes.iter().map(|&index| points[index]).collect();
+    let side = |is_outer: fn(f64, f64) -> bool| -> Vec<PlotPoint> {
         let on_side = |&index: &usize| match index {
             0 => true,
-            _ => index + 1 == found.len() || is_outer(found[index].1, found[index - 1].1),
+            _ => index + 1 == found.len() || is_outer(found[index].y, found[index - 1].y),
         };
         (0..found.len()).filter(on_side).map(|index| found[index]).collect()
     };
@@ -138,11 +139,11 @@ mod tests {
         assert!(without - with > 55.0, "{with} {without}");
     }
 
-    fn wave(length: f64, height: f64) -> Vec<(f64, f64)> {
+    fn wave(length: f64, height: f64) -> Vec<PlotPoint> {
         (0..4000)
             .map(|step| {
                 let x = 0.1 * f64::from(step);
-                (x, 100.0 - height * (std::f64::consts::TAU * x / length).sin())
+                PlotPoint::new(x, 100.0 - height * (std::f64::consts::TAU * x / length).sin())
             })
             .collect()
     }
@@ -164,28 +165,30 @@ mod tests {
             })
             .collect();
         let [(upper, lower)] = bands.as_slice() else { panic!("{} bands", bands.len()) };
-        let inner = |side: &[(f64, f64)], level: f64| {
-            side[2..side.len() - 2].iter().all(|point| (point.1 - level).abs() < 1.0)
+        let inner = |side: &[PlotPoint], level: f64| {
+            side[2..side.len() - 2].iter().all(|point| (point.y - level).abs() < 1.0)
         };
         assert!(inner(upper, 50.0) && inner(lower, 150.0), "{upper:?} {lower:?}");
-        assert!(upper[0].0 < 2.0 && upper[upper.len() - 1].0 > 398.0);
+        assert!(upper[0].x < 2.0 && upper[upper.len() - 1].x > 398.0);
     }
 
     #[test]
     fn a_fast_ripple_on_a_slow_motion_follows_it() {
-        let points: Vec<(f64, f64)> = (0..4000)
+        let points: Vec<PlotPoint> = (0..4000)
             .map(|step| {
                 let x = 0.1 * f64::from(step);
-                (x, 100.0 + 60.0 * (0.02 * x).sin() + 10.0 * (4.0 * x).sin())
+                PlotPoint::new(x, 100.0 + 60.0 * (0.02 * x).sin() + 10.0 * (4.0 * x).sin())
             })
             .collect();
         for trace in traces(&points) {
             if let CurveTrace::Band { upper, lower } = trace {
-                let off = |side: &[(f64, f64)], offset: f64| {
+                let off = |side: &[PlotPoint], offset: f64| {
                     // The first and the last swing are not complete.
                     side[2..side.len() - 2]
                         .iter()
-                        .map(|(x, y)| (y - 100.0 - 60.0 * (0.02 * x).sin() - offset).abs())
+                        .map(|PlotPoint { x, y }| {
+                            (y - 100.0 - 60.0 * (0.02 * x).sin() - offset).abs()
+                        })
                         .fold(0.0, f64::max)
                 };
                 assert!(off(&upper, -10.0) < 3.0 && off(&lower, 10.0) < 3.0);
@@ -199,13 +202,19 @@ mod tests {
     fn the_ends_of_strokes_and_bands_meet() {
         let mut points = wave(30.0, 40.0);
         let shift = 400.0;
-        points.extend(wave(2.0, 40.0).into_iter().map(|(x, y)| (x + shift, y)));
-        points.extend(wave(30.0, 40.0).into_iter().map(|(x, y)| (x + 2.0 * shift, y)));
+        points.extend(
+            wave(2.0, 40.0).into_iter().map(|PlotPoint { x, y }| PlotPoint::new(x + shift, y)),
+        );
+        points.extend(
+            wave(30.0, 40.0)
+                .into_iter()
+                .map(|PlotPoint { x, y }| PlotPoint::new(x + 2.0 * shift, y)),
+        );
         let found = traces(&points);
         assert_eq!(found.len(), 3);
         let ends = |trace: &CurveTrace| match trace {
-            CurveTrace::Line(points) => (points[0].0, points[points.len() - 1].0),
-            CurveTrace::Band { upper, .. } => (upper[0].0, upper[upper.len() - 1].0),
+            CurveTrace::Line(points) => (points[0].x, points[points.len() - 1].x),
+            CurveTrace::Band { upper, .. } => (upper[0].x, upper[upper.len() - 1].x),
         };
         for pair in found.windows(2) {
             assert_eq!(ends(&pair[0]).1, ends(&pair[1]).0);
@@ -214,9 +223,9 @@ mod tests {
 
     #[test]
     fn a_loop_is_a_stroke() {
-        let points: Vec<(f64, f64)> = (0..900)
+        let points: Vec<PlotPoint> = (0..900)
             .map(|step| 0.5 * f64::from(step))
-            .map(|angle: f64| (50.0 * angle.cos(), 50.0 * angle.sin()))
+            .map(|angle: f64| PlotPoint::new(50.0 * angle.cos(), 50.0 * angle.sin()))
             .collect();
         assert_eq!(traces(&points).len(), 1);
     }

@@ -2,6 +2,7 @@
 
 use super::axis::Scale;
 use super::error::PlotError;
+use super::geometry::{PlotPoint, PlotRange};
 
 /// Values at the points of a rectangular grid whose steps need not be equal.
 ///
@@ -80,22 +81,18 @@ impl Field {
 
     /// Least and greatest value; `None` if the field has no values.
     #[must_use]
-    pub fn extremes(&self) -> Option<(f64, f64)> {
-        self.values
-            .iter()
-            .flatten()
-            .map(|value| (*value, *value))
-            .reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)))
+    pub fn extremes(&self) -> Option<PlotRange> {
+        PlotRange::of(self.values.iter().flatten().copied())
     }
 
     /// The corners (x, y) of the grid.
-    pub(super) fn corners(&self) -> [(f64, f64); 2] {
+    pub(super) fn corners(&self) -> [PlotPoint; 2] {
         let ends = |axis: &[f64]| {
             let first = axis.first().copied().unwrap_or(0.0);
             (first, axis.last().copied().unwrap_or(first))
         };
         let (x, y) = (ends(&self.x), ends(&self.y));
-        [(x.0, y.0), (x.1, y.1)]
+        [PlotPoint::new(x.0, y.0), PlotPoint::new(x.1, y.1)]
     }
 }
 
@@ -151,7 +148,7 @@ mod tests {
     #[test]
     fn non_finite_values_are_missing() {
         let field = Field::new(vec![0.0, 1.0], vec![0.0], vec![Some(f64::NAN), Some(2.0)]);
-        assert_eq!(field.expect("a field").extremes(), Some((2.0, 2.0)));
+        assert_eq!(field.expect("a field").extremes(), Some(PlotRange::new(2.0, 2.0)));
     }
 
     #[test]

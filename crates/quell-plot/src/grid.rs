@@ -3,6 +3,7 @@
 use super::axis_limits::shape_of_equal_scales;
 use super::figure::{Figure, Size};
 use super::font_sizes::FontSizes;
+use super::geometry::FrameSize;
 
 /// Least width and height of a frame (pixels).
 const LEAST_FRAME: f64 = 60.0;
@@ -16,14 +17,14 @@ const LOWEST: f64 = 115.0;
 const PAGE: f64 = 870.0;
 
 /// Space that a figure needs around its frames, across and upright (pixels), for a number of columns, a frame and its sizes.
-pub(super) type FrameSurroundings = fn(&Figure, usize, (f64, f64), FontSizes) -> (f64, f64);
+pub(super) type FrameSurroundings = fn(&Figure, usize, FrameSize, FontSizes) -> FrameSize;
 
 /// Columns, frames and font sizes of a figure.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrameGrid {
     pub(super) columns: usize,
     /// Width and height of every frame (pixels).
-    pub(super) frame: (f64, f64),
+    pub(super) frame: FrameSize,
     pub(super) sizes: FontSizes,
 }
 
@@ -37,13 +38,16 @@ impl FrameGrid {
         let columns = columns_of(figure);
         let usual = usual_frame(columns);
         let of_frame =
-            |frame: (f64, f64)| Self { columns, frame, sizes: FontSizes::for_frame(frame.0) };
+            |frame: FrameSize| Self { columns, frame, sizes: FontSizes::for_frame(frame.width) };
         match figure.size {
             Size::Auto => of_frame(usual),
-            Size::Frame(width, height) => {
-                of_frame((sensible(width, usual.0), sensible(height, usual.1)))
+            Size::Frame(width, height) => of_frame(FrameSize::new(
+                sensible(width, usual.width),
+                sensible(height, usual.height),
+            )),
+            Size::Whole(width, height) => {
+                Self::whole(figure, columns, FrameSize::new(width, height), around)
             }
-            Size::Whole(width, height) => Self::whole(figure, columns, (width, height), around),
             Size::Wide(width) => Self::wide(figure, columns, width, around),
         }
     }
@@ -52,22 +56,23 @@ impl FrameGrid {
     fn whole(
         figure: &Figure,
         columns: usize,
-        (width, height): (f64, f64),
+        FrameSize { width, height }: FrameSize,
         around: FrameSurroundings,
     ) -> Self {
         let rows = figure.panels.len().div_ceil(columns).max(1) as f64;
         let usual = usual_frame(columns);
-        let mut frame = (
-            sensible(0.85 * width / columns as f64, usual.0),
-            sensible(0.8 * height / rows, usual.1),
+        let mut frame = FrameSize::new(
+            sensible(0.85 * width / columns as f64, usual.width),
+            sensible(0.8 * height / rows, usual.height),
         );
-        let sizes = FontSizes::for_frame(frame.0);
+        let sizes = FontSizes::for_frame(frame.width);
         // Margins depend on the tick labels and these on the frame size: three iterations converge.
         for _ in 0..3 {
-            let (across, upright) = around(figure, columns, frame, sizes);
-            frame = (
-                sensible((width - across) / columns as f64, usual.0),
-                sensible((height - upright) / rows, usual.1),
+            let FrameSize { width: across, height: upright } =
+                around(figure, columns, frame, sizes);
+            frame = FrameSize::new(
+                sensible((width - across) / columns as f64, usual.width),
+                sensible((height - upright) / rows, usual.height),
             );
         }
         Self { columns, frame, sizes }
@@ -78,9 +83,9 @@ impl FrameGrid {
     fn wide(figure: &Figure, columns: usize, width: f64, around: FrameSurroundings) -> Self {
         let candidates: Vec<(Self, f64)> = (1..=columns)
             .map(|columns| Self::of_width(figure, columns, width, around))
-            .filter(|(grid, _)| grid.columns == 1 || grid.frame.0 > LEAST_FRAME)
+            .filter(|(grid, _)| grid.columns == 1 || grid.frame.width > LEAST_FRAME)
             .collect();
-        let comfortable = candidates.iter().rposition(|(grid, _)| grid.frame.0 >= COMFORTABLE);
+        let comfortable = candidates.iter().rposition(|(grid, _)| grid.frame.width >= COMFORTABLE);
         let first = comfortable.unwrap_or(0);
         let fitting = candidates[first..].iter().find(|(_, height)| *height <= PAGE);
         let lowest = || candidates.iter().min_by(|one, other| one.1.total_cmp(&other.1));
@@ -98,28 +103,30 @@ impl FrameGrid {
     ) -> (Self, f64) {
         let usual = usual_frame(columns);
         let equal = shape_of_equal_scales(figure, columns_of(figure));
-        let shape = equal.unwrap_or(usual.1 / usual.0);
+        let shape = equal.unwrap_or(usual.height / usual.width);
         let least = if equal.is_some() { LEAST_FRAME } else { LOWEST };
-        let mut frame = (sensible(0.85 * width / columns as f64, usual.0), usual.1);
-        let sizes = FontSizes::for_frame(frame.0);
+        let mut frame =
+            FrameSize::new(sensible(0.85 * width / columns as f64, usual.width), usual.height);
+        let sizes = FontSizes::for_frame(frame.width);
         let mut height = 0.0;
         for _ in 0..3 {
-            let (across, upright) = around(figure, columns, frame, sizes);
-            frame.0 = sensible((width - across) / columns as f64, usual.0);
-            frame.1 = sensible((frame.0 * shape).max(least), usual.1);
+            let FrameSize { width: across, height: upright } =
+                around(figure, columns, frame, sizes);
+            frame.width = sensible((width - across) / columns as f64, usual.width);
+            frame.height = sensible((frame.width * shape).max(least), usual.height);
             height = upright;
         }
         let rows = figure.panels.len().div_ceil(columns).max(1);
-        (Self { columns, frame, sizes }, height + frame.1 * rows as f64)
+        (Self { columns, frame, sizes }, height + frame.height * rows as f64)
     }
 }
 
 /// Width and height of a frame that suits this number of columns (pixels).
-fn usual_frame(columns: usize) -> (f64, f64) {
+fn usual_frame(columns: usize) -> FrameSize {
     match columns {
-        1 => (440.0, 280.0),
-        2 => (300.0, 205.0),
-        _ => (225.0, 160.0),
+        1 => FrameSize::new(440.0, 280.0),
+        2 => FrameSize::new(300.0, 205.0),
+        _ => FrameSize::new(225.0, 160.0),
     }
 }
 

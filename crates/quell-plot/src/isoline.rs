@@ -12,11 +12,13 @@
 //! Source: W. E. Lorensen, H. E. Cline, Marching cubes, Computer Graphics 21 (1987) 163–169, in two
 //! dimensions.
 
+use super::geometry::PlotPoint;
+
 /// One isoline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Isoline {
     /// The points (x, y) in order; the first is repeated at the end when the line is closed.
-    pub points: Vec<(f64, f64)>,
+    pub points: Vec<PlotPoint>,
     /// Whether the line is closed.
     pub closed: bool,
 }
@@ -145,7 +147,7 @@ impl Cells<'_> {
     }
 
     /// The point where an edge crosses the level.
-    fn crossing(&self, edge: u32) -> (f64, f64) {
+    fn crossing(&self, edge: u32) -> PlotPoint {
         let point = (edge / 2) as usize;
         let (column, row) = (point % self.x.len(), point / self.x.len());
         let upright = edge % 2 == 1;
@@ -159,9 +161,9 @@ impl Cells<'_> {
         };
         let between = |axis: &[f64], at: usize| axis[at] + share * (axis[at + 1] - axis[at]);
         if upright {
-            (self.x[column], between(self.y, row))
+            PlotPoint::new(self.x[column], between(self.y, row))
         } else {
-            (between(self.x, column), self.y[row])
+            PlotPoint::new(between(self.x, column), self.y[row])
         }
     }
 }
@@ -180,11 +182,11 @@ mod tests {
     }
 
     fn length(line: &Isoline) -> f64 {
-        line.points.windows(2).map(|p| (p[1].0 - p[0].0).hypot(p[1].1 - p[0].1)).sum()
+        line.points.windows(2).map(|p| (p[1].x - p[0].x).hypot(p[1].y - p[0].y)).sum()
     }
 
     fn area(line: &Isoline) -> f64 {
-        let twice: f64 = line.points.windows(2).map(|p| p[0].0 * p[1].1 - p[1].0 * p[0].1).sum();
+        let twice: f64 = line.points.windows(2).map(|p| p[0].x * p[1].y - p[1].x * p[0].y).sum();
         0.5 * twice.abs()
     }
 
@@ -217,13 +219,13 @@ mod tests {
         let lines = isolines(&x, &y, &table(&x, &y, |x, y| 2.0 * x + 3.0 * y), 1.0);
         assert_eq!(lines.len(), 1);
         assert!(!lines[0].closed);
-        for (x, y) in &lines[0].points {
+        for PlotPoint { x, y } in &lines[0].points {
             assert!((2.0 * x + 3.0 * y - 1.0).abs() < 1e-14, "{x} {y}");
         }
         // The line runs from the point on y = 0 to the one on x = -0.9 or y = 1.7, whichever comes first.
         let (first, last) = (lines[0].points[0], lines[0].points[lines[0].points.len() - 1]);
-        let lowest = if first.1 < last.1 { first } else { last };
-        assert!((lowest.0 - 0.5).abs() < 1e-14 && lowest.1 == 0.0);
+        let lowest = if first.y < last.y { first } else { last };
+        assert!((lowest.x - 0.5).abs() < 1e-14 && lowest.y == 0.0);
     }
 
     #[test]
@@ -239,8 +241,7 @@ mod tests {
             let expected = if ones == 0 || ones == 4 { 0 } else { 1 + usize::from(diagonal) };
             assert_eq!(lines.len(), expected, "case {case:04b}");
             // An edge is cut if its ends lie on different sides.
-            let mut ends: Vec<(f64, f64)> =
-                lines.iter().flat_map(|line| line.points.clone()).collect();
+            let ends: Vec<PlotPoint> = lines.iter().flat_map(|line| line.points.clone()).collect();
             let cut = |one: u8, other: u8| corner(one) != corner(other);
             let edges = [
                 (cut(0, 1), (0.5, 0.0)),
@@ -250,6 +251,7 @@ mod tests {
             ];
             let mut wanted: Vec<_> =
                 edges.into_iter().filter(|(cut, _)| *cut).map(|(_, at)| at).collect();
+            let mut ends: Vec<_> = ends.iter().map(|end| (end.x, end.y)).collect();
             ends.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
             wanted.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
             assert_eq!(ends, wanted, "case {case:04b}");
@@ -267,8 +269,8 @@ mod tests {
             // Joined high corners: each line cuts off a low corner, (1, 0) or (0, 1).
             lines.iter().all(|line| {
                 let middle = (
-                    0.5 * (line.points[0].0 + line.points[1].0),
-                    0.5 * (line.points[0].1 + line.points[1].1),
+                    0.5 * (line.points[0].x + line.points[1].x),
+                    0.5 * (line.points[0].y + line.points[1].y),
                 );
                 (middle.0 > 0.5) != (middle.1 > 0.5)
             })
@@ -285,7 +287,7 @@ mod tests {
         values[10 * 21 + 13] = None;
         let lines = isolines(&x, &x, &values, 0.01);
         assert_eq!(lines.len(), 2);
-        for (x, _) in lines.iter().flat_map(|line| &line.points) {
+        for PlotPoint { x, .. } in lines.iter().flat_map(|line| &line.points) {
             assert!(*x < 0.2 + 1e-12 || *x > 0.4 - 1e-12, "{x}");
         }
         assert!(isolines(&x, &x, &vec![None; 441], 0.0).is_empty());

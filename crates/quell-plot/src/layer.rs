@@ -1,5 +1,6 @@
 //! Layers of a panel: curves, points, regions, reference lines and notes.
 
+use super::geometry::PlotPoint;
 use super::map_layers::{Contours, Heatmap};
 use super::palette::{LineStyle, PlotRole};
 use super::shades::outcome_opacity;
@@ -10,7 +11,7 @@ pub struct Polyline {
     /// What the curve represents.
     pub role: PlotRole,
     /// The pieces, each a list of (x, y); pieces are not connected.
-    pub pieces: Vec<Vec<(f64, f64)>>,
+    pub pieces: Vec<Vec<PlotPoint>>,
     /// Dashes; `None` for those of the role.
     pub style: Option<LineStyle>,
     /// Width in pixels; `None` for that of the role.
@@ -22,7 +23,7 @@ pub struct Polyline {
 impl Polyline {
     /// A curve through these points. A non-finite point ends a piece.
     #[must_use]
-    pub fn new(role: PlotRole, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub fn new(role: PlotRole, points: impl IntoIterator<Item = PlotPoint>) -> Self {
         Self::pieces(role, [points])
     }
 
@@ -30,14 +31,14 @@ impl Polyline {
     #[must_use]
     pub fn pieces<Piece>(role: PlotRole, pieces: impl IntoIterator<Item = Piece>) -> Self
     where
-        Piece: IntoIterator<Item = (f64, f64)>,
+        Piece: IntoIterator<Item = PlotPoint>,
     {
         let mut whole = Vec::new();
         for piece in pieces {
             let mut current = Vec::new();
-            for (x, y) in piece {
-                if x.is_finite() && y.is_finite() {
-                    current.push((x, y));
+            for point in piece {
+                if point.is_finite() {
+                    current.push(point);
                 } else if !current.is_empty() {
                     whole.push(std::mem::take(&mut current));
                 }
@@ -89,7 +90,7 @@ pub struct Points {
     /// What the points represent.
     pub role: PlotRole,
     /// The points (x, y).
-    pub points: Vec<(f64, f64)>,
+    pub points: Vec<PlotPoint>,
     /// Shape of the markers.
     pub marker: Marker,
     /// Diameter of the markers (pixels).
@@ -101,8 +102,8 @@ pub struct Points {
 impl Points {
     /// Discs of 5 pixels at these points; non-finite points are omitted.
     #[must_use]
-    pub fn new(role: PlotRole, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let points = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+    pub fn new(role: PlotRole, points: impl IntoIterator<Item = PlotPoint>) -> Self {
+        let points = points.into_iter().filter(PlotPoint::is_finite).collect();
         Self { role, points, marker: Marker::Disc, size: 5.0, label: String::new() }
     }
 
@@ -158,7 +159,7 @@ impl Fill {
 #[derive(Debug, Clone, PartialEq)]
 pub enum RegionShape {
     /// The interior of a closed polygon of (x, y).
-    Polygon(Vec<(f64, f64)>),
+    Polygon(Vec<PlotPoint>),
     /// The vertical strip between two values of x; infinite values extend to the frame.
     AcrossX(f64, f64),
     /// The horizontal strip between two values of y; infinite values extend to the frame.
@@ -181,8 +182,8 @@ pub struct Region {
 impl Region {
     /// The interior of a polygon, which is closed automatically.
     #[must_use]
-    pub fn polygon(role: PlotRole, corners: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let corners = corners.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+    pub fn polygon(role: PlotRole, corners: impl IntoIterator<Item = PlotPoint>) -> Self {
+        let corners = corners.into_iter().filter(PlotPoint::is_finite).collect();
         Self::of(role, RegionShape::Polygon(corners))
     }
 
@@ -190,8 +191,8 @@ impl Region {
     #[must_use]
     pub fn between(
         role: PlotRole,
-        lower: impl IntoIterator<Item = (f64, f64)>,
-        upper: impl IntoIterator<Item = (f64, f64)>,
+        lower: impl IntoIterator<Item = PlotPoint>,
+        upper: impl IntoIterator<Item = PlotPoint>,
     ) -> Self {
         let mut back: Vec<_> = upper.into_iter().collect();
         back.reverse();
@@ -296,7 +297,7 @@ impl ReferenceLine {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Note {
     /// The point (x, y) it belongs to.
-    pub at: (f64, f64),
+    pub at: PlotPoint,
     /// The text.
     pub text: String,
     /// Role that sets the colour; `None` for black.
@@ -307,7 +308,7 @@ impl Note {
     /// A text centred on (x, y).
     #[must_use]
     pub fn new(x: f64, y: f64, text: impl Into<String>) -> Self {
-        Self { at: (x, y), text: text.into(), role: None }
+        Self { at: PlotPoint::new(x, y), text: text.into(), role: None }
     }
 
     /// Uses the colour of this role.
@@ -354,18 +355,18 @@ impl Layer {
     pub(super) fn each_extent(&self, mut visit: impl FnMut(Option<f64>, Option<f64>)) {
         match self {
             Self::Polyline(line) => {
-                for &(x, y) in line.pieces.iter().flatten() {
+                for &PlotPoint { x, y } in line.pieces.iter().flatten() {
                     visit(Some(x), Some(y));
                 }
             }
             Self::Points(points) => {
-                for &(x, y) in &points.points {
+                for &PlotPoint { x, y } in &points.points {
                     visit(Some(x), Some(y));
                 }
             }
             Self::Region(region) => match &region.shape {
                 RegionShape::Polygon(corners) => {
-                    for &(x, y) in corners {
+                    for &PlotPoint { x, y } in corners {
                         visit(Some(x), Some(y));
                     }
                 }
@@ -382,9 +383,9 @@ impl Layer {
                 Orientation::Vertical => visit(Some(rule.value), None),
                 Orientation::Horizontal => visit(None, Some(rule.value)),
             },
-            Self::Note(note) => visit(Some(note.at.0), Some(note.at.1)),
+            Self::Note(note) => visit(Some(note.at.x), Some(note.at.y)),
             Self::Heatmap(Heatmap { field, .. }) | Self::Contours(Contours { field, .. }) => {
-                for (x, y) in field.corners() {
+                for PlotPoint { x, y } in field.corners() {
                     visit(Some(x), Some(y));
                 }
             }

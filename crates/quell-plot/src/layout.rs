@@ -5,6 +5,7 @@ use super::canvas::Rectangle;
 use super::colour_bar::ColourBar;
 use super::figure::Panel;
 use super::font_sizes::FontSizes;
+use super::geometry::PlotRange;
 use super::legend::LegendEntry;
 use super::ticks::Ticks;
 use super::typeset::RichText;
@@ -26,8 +27,8 @@ pub(super) enum LegendLayout {
 #[derive(Debug, Clone)]
 pub(super) struct PanelLayout {
     pub(super) frame: Rectangle,
-    pub(super) x_limits: (f64, f64),
-    pub(super) y_limits: (f64, f64),
+    pub(super) x_limits: PlotRange,
+    pub(super) y_limits: PlotRange,
     pub(super) x_ticks: Ticks,
     pub(super) y_ticks: Ticks,
     pub(super) x_numbers: bool,
@@ -55,8 +56,8 @@ impl PanelLayout {
     pub(super) fn mappings(&self, panel: &Panel) -> (Mapping, Mapping) {
         let frame = self.frame;
         (
-            Mapping::new(&panel.x, self.x_limits, (frame.left, frame.right)),
-            Mapping::new(&panel.y, self.y_limits, (frame.bottom, frame.top)),
+            Mapping::new(&panel.x, self.x_limits, frame.left, frame.right),
+            Mapping::new(&panel.y, self.y_limits, frame.bottom, frame.top),
         )
     }
 }
@@ -76,5 +77,5 @@ pub(super) struct FigureLayout {
     /// Top of the shared legend.
     pub(super) shared_top: f64,
     /// Left and right of all frames.
-    pub(super) body: (f64, f64),
+    pub(super) body: PlotRange,
 }

@@ -7,6 +7,7 @@ use super::colouring::{Colouring, Shading, Tint};
 use super::envelope::{self, CurveTrace, band_opacity};
 use super::figure::{LegendPosition, Panel};
 use super::font_sizes::FontSizes;
+use super::geometry::{FrameSize, PlotPoint};
 use super::layer::{Fill, Layer, Marker, Polyline};
 use super::map_layers::Heatmap;
 use super::marks;
@@ -75,7 +76,7 @@ const BAND: &str = "band: extremes of each oscillation";
 pub(super) struct LegendPanel<'a> {
     pub(super) panel: &'a Panel,
     pub(super) limits: AxisLimits,
-    pub(super) frame: (f64, f64),
+    pub(super) frame: FrameSize,
 }
 
 /// The entries of these panels: equal labels share an entry, equal keys are shown once. Layers of which nothing is inside the
@@ -109,12 +110,12 @@ fn add(entries: &mut Vec<LegendEntry>, text: &str, sample: LegendKey) {
 /// The colour of the band as which a part of this curve is drawn.
 fn band_of(layer: &Layer, place: LegendPanel) -> Option<Colour> {
     let Layer::Polyline(line) = layer else { return None };
-    let (width, height) = place.frame;
+    let FrameSize { width, height } = place.frame;
     let frame = Rectangle { left: 0.0, top: 0.0, right: width, bottom: height };
-    let x = Mapping::new(&place.panel.x, place.limits.0, (0.0, width));
-    let y = Mapping::new(&place.panel.y, place.limits.1, (height, 0.0));
+    let x = Mapping::new(&place.panel.x, place.limits.x, 0.0, width);
+    let y = Mapping::new(&place.panel.y, place.limits.y, height, 0.0);
     let pieces = projection::pixels(&line.pieces, &x, &y, frame);
-    let is_band = |piece: &Vec<(f64, f64)>| {
+    let is_band = |piece: &Vec<PlotPoint>| {
         envelope::traces(piece).iter().any(|trace| matches!(trace, CurveTrace::Band { .. }))
     };
     pieces.iter().any(is_band).then(|| line.role.colour())
@@ -182,11 +183,11 @@ fn line_height(sizes: FontSizes) -> f64 {
 }
 
 /// Width and height of a box with one entry per row, no wider than `room`.
-pub(super) fn box_size(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> (f64, f64) {
+pub(super) fn box_size(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> FrameSize {
     let set: Vec<SetEntry> = set_in_box(entries, room, sizes);
     let widest = set.iter().map(|entry| entry.width).fold(0.0, f64::max);
     let height = set.iter().map(|entry| entry.height(sizes)).sum::<f64>() - LINE_GAP;
-    (widest + 2.0 * PADDING, height + 2.0 * PADDING)
+    FrameSize::new(widest + 2.0 * PADDING, height + 2.0 * PADDING)
 }
 
 fn set_in_box(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> Vec<SetEntry<'_>> {
@@ -197,7 +198,7 @@ fn set_in_box(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> Vec<SetEn
 pub(super) fn box_at(
     position: LegendPosition,
     frame: Rectangle,
-    (width, height): (f64, f64),
+    FrameSize { width, height }: FrameSize,
 ) -> Rectangle {
     const MARGIN: f64 = 8.0;
     let inner = frame.grown(-MARGIN);
@@ -229,7 +230,7 @@ pub(super) fn draw_box(
     let mut top = area.top + PADDING;
     // A hair more than the widest line, which must not break again.
     for entry in set_in_box(entries, area.width() + 0.01, sizes) {
-        draw_entry(canvas, &entry, (area.left + PADDING, top), sizes);
+        draw_entry(canvas, &entry, PlotPoint::new(area.left + PADDING, top), sizes);
         top += entry.height(sizes);
     }
 }
@@ -262,7 +263,7 @@ pub(super) fn rows_height(entries: &[LegendEntry], room: f64, sizes: FontSizes) 
 pub(super) fn draw_rows(
     canvas: &mut Canvas,
     entries: &[LegendEntry],
-    (left, top): (f64, f64),
+    PlotPoint { x: left, y: top }: PlotPoint,
     room: f64,
     sizes: FontSizes,
 ) {
@@ -276,14 +277,19 @@ pub(super) fn draw_rows(
         let used = if is_list { widest } else { used };
         let mut x = left + 0.5 * (room - used).max(0.0);
         for entry in &row {
-            draw_entry(canvas, entry, (x, top), sizes);
+            draw_entry(canvas, entry, PlotPoint::new(x, top), sizes);
             x += entry.width + ENTRY_GAP;
         }
         top += row_height(&row, sizes);
     }
 }
 
-fn draw_entry(canvas: &mut Canvas, entry: &SetEntry, (left, top): (f64, f64), sizes: FontSizes) {
+fn draw_entry(
+    canvas: &mut Canvas,
+    entry: &SetEntry,
+    PlotPoint { x: left, y: top }: PlotPoint,
+    sizes: FontSizes,
+) {
     let size = f64::from(sizes.legend);
     let middle = top + 0.5 * size;
     let half = 0.42 * size;
@@ -303,7 +309,8 @@ fn draw_entry(canvas: &mut Canvas, entry: &SetEntry, (left, top): (f64, f64), si
         };
         match sample {
             LegendKey::Stroke(stroke) => {
-                let ends = vec![(left, middle), (left + SAMPLE, middle)];
+                let ends =
+                    vec![PlotPoint::new(left, middle), PlotPoint::new(left + SAMPLE, middle)];
                 canvas.stroke(&path(&[ends], false), stroke);
             }
             LegendKey::Band(colour) => {
@@ -311,7 +318,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &SetEntry, (left, top): (f64, f64), si
                 canvas.rectangle(part, None, Some((*colour, 0.6)));
             }
             LegendKey::Point(role, marker, diameter) => {
-                let at = [(left + 0.5 * SAMPLE, middle)];
+                let at = [PlotPoint::new(left + 0.5 * SAMPLE, middle)];
                 marks::markers(canvas, &at, *role, *marker, diameter.max(LEAST_KEY));
             }
             LegendKey::Tint(colour) => {
@@ -330,7 +337,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &SetEntry, (left, top): (f64, f64), si
     }
     for (number, line) in entry.lines.iter().enumerate() {
         let below = line_height(sizes) * number as f64;
-        let baseline = (left + SAMPLE + SAMPLE_GAP, middle + 0.36 * size + below);
+        let baseline = PlotPoint::new(left + SAMPLE + SAMPLE_GAP, middle + 0.36 * size + below);
         canvas.text(line, baseline, TextStyle::new(sizes.legend, TextAnchor::Start));
     }
 }

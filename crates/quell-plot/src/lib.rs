@@ -7,11 +7,11 @@
 //! "dithered" looks the same in every figure of the project.
 //!
 //! ```
-//! use quell_plot::{PlotAxis, Figure, Polyline, Panel, PlotRole};
+//! use quell_plot::{PlotAxis, Figure, Polyline, Panel, PlotPoint, PlotRole};
 //!
 //! let times: Vec<f64> = (0..500).map(|step| 0.1 * f64::from(step)).collect();
-//! let free = times.iter().map(|&time| (time, time.sin()));
-//! let dithered = times.iter().map(|&time| (time, (-0.1 * time).exp() * time.sin()));
+//! let free = times.iter().map(|&time| PlotPoint::new(time, time.sin()));
+//! let dithered = times.iter().map(|&time| PlotPoint::new(time, (-0.1 * time).exp() * time.sin()));
 //! let panel = Panel::new(PlotAxis::new("time").symbol("τ"), PlotAxis::new("displacement").symbol("x"))
 //!     .title("(a) $D$ = 0.3")
 //!     .with(Polyline::new(PlotRole::Undithered, free).label("undithered"))
@@ -39,6 +39,7 @@ mod field;
 mod figure;
 mod font_sizes;
 mod fonts;
+mod geometry;
 mod grid;
 mod isoline;
 mod layer;
@@ -71,6 +72,7 @@ pub use field::Field;
 pub use figure::{
     CaptionPlacement, Figure, Legend, LegendPosition, Panel, SharedLegend, Sharing, Size,
 };
+pub use geometry::{FrameSize, PlotPoint, PlotRange};
 pub use isoline::{Isoline, isolines};
 pub use layer::{
     Fill, Layer, Marker, Note, Orientation, Points, Polyline, ReferenceLine, Region, RegionShape,

@@ -6,13 +6,14 @@
 //! or next to its line where the line is too close to the frame: a level without its number would be of no use.
 
 use super::canvas::Rectangle;
+use super::geometry::{FrameSize, PlotPoint};
 use super::typeset::RichText;
 
 /// The lines of one level (pixels).
 #[derive(Debug, Clone)]
 pub(super) struct LevelLines {
     pub(super) text: RichText,
-    pub(super) pieces: Vec<Vec<(f64, f64)>>,
+    pub(super) pieces: Vec<Vec<PlotPoint>>,
 }
 
 /// A label on a line.
@@ -20,7 +21,7 @@ pub(super) struct LevelLines {
 pub(super) struct PlacedLabel {
     pub(super) level: usize,
     /// Centre of the text.
-    pub(super) centre: (f64, f64),
+    pub(super) centre: PlotPoint,
     /// Rotation, clockwise in degrees, from −90 to 90.
     pub(super) rotation: f64,
     piece: usize,
@@ -78,7 +79,7 @@ impl OccupancyMap {
         Self { frame, width, height, owners: vec![FREE; width * height] }
     }
 
-    fn index(&self, (x, y): (f64, f64)) -> Option<usize> {
+    fn index(&self, PlotPoint { x, y }: PlotPoint) -> Option<usize> {
         let (x, y) = (x - self.frame.left, y - self.frame.top);
         if !(x >= 0.0 && y >= 0.0) {
             return None;
@@ -92,7 +93,7 @@ impl OccupancyMap {
         (column < self.width && row < self.height).then_some(row * self.width + column)
     }
 
-    fn mark(&mut self, point: (f64, f64), owner: u32) {
+    fn mark(&mut self, point: PlotPoint, owner: u32) {
         if let Some(index) = self.index(point) {
             let before = self.owners[index];
             self.owners[index] = match before {
@@ -106,13 +107,13 @@ impl OccupancyMap {
     }
 
     /// Marks a stroke that no label should cover.
-    pub(super) fn stroke(&mut self, points: &[(f64, f64)]) {
+    pub(super) fn stroke(&mut self, points: &[PlotPoint]) {
         self.stroke_of(points, CROSSED);
     }
 
-    fn stroke_of(&mut self, points: &[(f64, f64)], owner: u32) {
+    fn stroke_of(&mut self, points: &[PlotPoint], owner: u32) {
         for pair in points.windows(2) {
-            let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
+            let (dx, dy) = (pair[1].x - pair[0].x, pair[1].y - pair[0].y);
             // Strokes far outside the frame may be very long but mark nothing.
             #[expect(
                 clippy::cast_possible_truncation,
@@ -122,7 +123,7 @@ impl OccupancyMap {
             let steps = (dx.hypot(dy) / 0.7).ceil().min(1e5) as usize;
             for step in 0..=steps {
                 let share = step as f64 / steps.max(1) as f64;
-                self.mark((pair[0].0 + share * dx, pair[0].1 + share * dy), owner);
+                self.mark(PlotPoint::new(pair[0].x + share * dx, pair[0].y + share * dy), owner);
             }
         }
     }
@@ -133,7 +134,7 @@ impl OccupancyMap {
         while y < area.bottom.min(self.frame.bottom) {
             let mut x = area.left.max(self.frame.left);
             while x < area.right.min(self.frame.right) {
-                self.mark((x, y), TAKEN);
+                self.mark(PlotPoint::new(x, y), TAKEN);
                 x += 1.0;
             }
             y += 1.0;
@@ -141,7 +142,7 @@ impl OccupancyMap {
     }
 
     /// Whether a rotated rectangle lies in the frame and covers nothing that the label may not cover.
-    fn is_free(&self, candidate: &Candidate, half: (f64, f64), owner: u32, cover: Cover) -> bool {
+    fn is_free(&self, candidate: &Candidate, half: FrameSize, owner: u32, cover: Cover) -> bool {
         let allowed = |found: u32| match cover {
             Cover::OwnLine => found == FREE || found == owner,
             Cover::Strokes | Cover::Beside => found != TAKEN,
@@ -153,7 +154,7 @@ impl OccupancyMap {
         free
     }
 
-    fn take(&mut self, candidate: &Candidate, half: (f64, f64)) {
+    fn take(&mut self, candidate: &Candidate, half: FrameSize) {
         candidate.each_pixel(half, |point| self.mark(point, TAKEN));
     }
 }
@@ -161,8 +162,8 @@ impl OccupancyMap {
 /// A candidate position of a label: its centre and the direction of its baseline.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
-    centre: (f64, f64),
-    direction: (f64, f64),
+    centre: PlotPoint,
+    direction: PlotPoint,
     at: f64,
     cost: f64,
 }
@@ -170,22 +171,25 @@ struct Candidate {
 impl Candidate {
     /// The candidates next to the line on both of its sides, for a text of this half height.
     fn beside(self, half: f64) -> [Self; 2] {
-        let (dx, dy) = self.direction;
+        let PlotPoint { x: dx, y: dy } = self.direction;
         [1.0, -1.0].map(|side| {
             let off = side * (half + BESIDE);
-            let centre = (self.centre.0 + off * dy, self.centre.1 - off * dx);
+            let centre = PlotPoint::new(self.centre.x + off * dy, self.centre.y - off * dx);
             Self { centre, ..self }
         })
     }
 
-    fn each_pixel(&self, half: (f64, f64), mut visit: impl FnMut((f64, f64))) {
+    fn each_pixel(&self, half: FrameSize, mut visit: impl FnMut(PlotPoint)) {
         #[expect(clippy::cast_possible_truncation, reason = "half the size of a text")]
-        let (across, up) = (half.0.ceil() as i32, half.1.ceil() as i32);
-        let (dx, dy) = self.direction;
+        let (across, up) = (half.width.ceil() as i32, half.height.ceil() as i32);
+        let PlotPoint { x: dx, y: dy } = self.direction;
         for v in -up..=up {
             for u in -across..=across {
                 let (u, v) = (f64::from(u), f64::from(v));
-                visit((self.centre.0 + u * dx - v * dy, self.centre.1 + u * dy + v * dx));
+                visit(PlotPoint::new(
+                    self.centre.x + u * dx - v * dy,
+                    self.centre.y + u * dy + v * dx,
+                ));
             }
         }
     }
@@ -193,15 +197,15 @@ impl Candidate {
 
 /// A line with its arc length at every point.
 struct MeasuredPath<'a> {
-    points: &'a [(f64, f64)],
+    points: &'a [PlotPoint],
     arc_length: Vec<f64>,
 }
 
 impl<'a> MeasuredPath<'a> {
-    fn new(points: &'a [(f64, f64)]) -> Self {
+    fn new(points: &'a [PlotPoint]) -> Self {
         let mut arc_length = vec![0.0];
         for pair in points.windows(2) {
-            let leg = (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
+            let leg = pair[0].distance(pair[1]);
             arc_length.push(arc_length[arc_length.len() - 1] + leg);
         }
         Self { points, arc_length }
@@ -211,7 +215,7 @@ impl<'a> MeasuredPath<'a> {
         self.arc_length.last().copied().unwrap_or(0.0)
     }
 
-    fn at(&self, path: f64) -> (f64, f64) {
+    fn at(&self, path: f64) -> PlotPoint {
         let last = self.points.len() - 1;
         let leg =
             self.arc_length.partition_point(|arc_length| *arc_length <= path).clamp(1, last.max(1));
@@ -220,7 +224,7 @@ impl<'a> MeasuredPath<'a> {
         };
         let chord = self.arc_length[leg] - self.arc_length[leg - 1];
         let share = if chord > 0.0 { (path - self.arc_length[leg - 1]) / chord } else { 0.0 };
-        (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
+        PlotPoint::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y))
     }
 
     /// The candidate for a text of this half width, centred at a position on the line; `None` where the line
@@ -228,30 +232,30 @@ impl<'a> MeasuredPath<'a> {
     fn candidate(&self, at: f64, half: f64, most_bend: f64) -> Option<Candidate> {
         const SAMPLES: i32 = 8;
         let (from, to) = (self.at(at - half), self.at(at + half));
-        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
         let chord = dx.hypot(dy);
         if chord < 1.8 * half {
             return None;
         }
-        let mut direction = (dx / chord, dy / chord);
+        let mut direction = PlotPoint::new(dx / chord, dy / chord);
         let (mut bend, mut shift) = (0.0_f64, 0.0);
         for sample in 1..SAMPLES {
             let point = self.at(at - half + 2.0 * half * f64::from(sample) / f64::from(SAMPLES));
-            let off = (point.1 - from.1) * direction.0 - (point.0 - from.0) * direction.1;
+            let off = (point.y - from.y) * direction.x - (point.x - from.x) * direction.y;
             bend = bend.max(off.abs());
             shift += off / f64::from(SAMPLES);
         }
         if bend > most_bend {
             return None;
         }
-        let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
-        let centre = (middle.0 - shift * direction.1, middle.1 + shift * direction.0);
+        let middle = (0.5 * (from.x + to.x), 0.5 * (from.y + to.y));
+        let centre = PlotPoint::new(middle.0 - shift * direction.y, middle.1 + shift * direction.x);
         // Keeps the text upright: from left to right, and upwards rather than downwards if vertical.
-        if direction.0 < -1e-9 || (direction.0.abs() <= 1e-9 && direction.1 > 0.0) {
-            direction = (-direction.0, -direction.1);
+        if direction.x < -1e-9 || (direction.x.abs() <= 1e-9 && direction.y > 0.0) {
+            direction = PlotPoint::new(-direction.x, -direction.y);
         }
         let off_middle = (at / self.length() - 0.5).abs();
-        let cost = bend / most_bend + 0.6 * direction.1.abs() + 0.8 * off_middle;
+        let cost = bend / most_bend + 0.6 * direction.y.abs() + 0.8 * off_middle;
         Some(Candidate { centre, direction, at, cost })
     }
 }
@@ -293,10 +297,10 @@ fn label(
     size: f64,
     cover: Cover,
 ) -> Vec<PlacedLabel> {
-    let half = (0.5 * level.text.width(size, false) + MARGIN, 0.58 * size);
+    let half = FrameSize::new(0.5 * level.text.width(size, false) + MARGIN, 0.58 * size);
     let (most, least_length) = match cover {
-        Cover::OwnLine => (MOST, 4.0 * half.0 + 8.0),
-        Cover::Strokes | Cover::Beside => (1, 2.0 * half.0 + 6.0),
+        Cover::OwnLine => (MOST, 4.0 * half.width + 8.0),
+        Cover::Strokes | Cover::Beside => (1, 2.0 * half.width + 6.0),
     };
     let mut paths: Vec<(usize, MeasuredPath<'_>)> = level
         .pieces
@@ -315,13 +319,13 @@ fn label(
             }
             let search = LabelSearch { half, owner: owners[*piece], size, cover };
             if let Some(candidate) = search.best(path, (from, to), occupied) {
-                occupied.take(&candidate, (half.0 + 2.0, half.1 + 1.0));
+                occupied.take(&candidate, FrameSize::new(half.width + 2.0, half.height + 1.0));
                 // A line is interrupted under its label alone.
-                let opened = if cover == Cover::Beside { 0.0 } else { half.0 };
+                let opened = if cover == Cover::Beside { 0.0 } else { half.width };
                 placed.push(PlacedLabel {
                     level: number,
                     centre: candidate.centre,
-                    rotation: candidate.direction.1.atan2(candidate.direction.0).to_degrees(),
+                    rotation: candidate.direction.y.atan2(candidate.direction.x).to_degrees(),
                     piece: *piece,
                     from: candidate.at - opened,
                     to: candidate.at + opened,
@@ -345,7 +349,7 @@ fn parts(length: f64) -> Vec<(f64, f64)> {
 /// The search for a position of a label on its line.
 struct LabelSearch {
     /// Half the width and height of the text (pixels).
-    half: (f64, f64),
+    half: FrameSize,
     /// The line of the label in the occupancy map.
     owner: u32,
     /// Size of the text (pixels).
@@ -362,7 +366,7 @@ impl LabelSearch {
         occupied: &OccupancyMap,
     ) -> Option<Candidate> {
         let half = self.half;
-        let (first, last) = (from.max(half.0 + 2.0), to.min(path.length() - half.0 - 2.0));
+        let (first, last) = (from.max(half.width + 2.0), to.min(path.length() - half.width - 2.0));
         for most_bend in [0.12 * self.size, 0.3 * self.size] {
             #[expect(
                 clippy::cast_possible_truncation,
@@ -370,11 +374,14 @@ impl LabelSearch {
                 reason = "lines in a frame are some thousand pixels chord"
             )]
             let count = ((last - first) / STEP).clamp(0.0, 1e4) as usize;
-            let on_line = (0..=count)
-                .filter_map(|step| path.candidate(first + STEP * step as f64, half.0, most_bend));
+            let on_line = (0..=count).filter_map(|step| {
+                path.candidate(first + STEP * step as f64, half.width, most_bend)
+            });
             let mut candidates: Vec<Candidate> = match self.cover {
                 Cover::OwnLine | Cover::Strokes => on_line.collect(),
-                Cover::Beside => on_line.flat_map(|candidate| candidate.beside(half.1)).collect(),
+                Cover::Beside => {
+                    on_line.flat_map(|candidate| candidate.beside(half.height)).collect()
+                }
             };
             candidates.sort_by(|one, other| one.cost.total_cmp(&other.cost));
             let free =
@@ -390,9 +397,9 @@ impl LabelSearch {
 /// The lines of a level, interrupted at its labels.
 pub(super) fn opened(
     level: usize,
-    pieces: &[Vec<(f64, f64)>],
+    pieces: &[Vec<PlotPoint>],
     placed: &[PlacedLabel],
-) -> Vec<Vec<(f64, f64)>> {
+) -> Vec<Vec<PlotPoint>> {
     let mut drawn = Vec::new();
     for (number, piece) in pieces.iter().enumerate() {
         let mut openings: Vec<(f64, f64)> = placed
@@ -427,31 +434,32 @@ mod tests {
 
     const FRAME: Rectangle = Rectangle { left: 0.0, top: 0.0, right: 400.0, bottom: 300.0 };
 
-    fn level(text: &str, pieces: Vec<Vec<(f64, f64)>>) -> LevelLines {
+    fn level(text: &str, pieces: Vec<Vec<PlotPoint>>) -> LevelLines {
         LevelLines { text: RichText::parse(text), pieces }
     }
 
     /// A line along the edge of the frame has no room for its label: it is next to the line.
     #[test]
     fn a_line_along_the_frame_is_labelled_beside_itself() {
-        let line: Vec<(f64, f64)> = (0..=40).map(|k| (10.0 * f64::from(k), 298.0)).collect();
+        let line: Vec<PlotPoint> =
+            (0..=40).map(|k| PlotPoint::new(10.0 * f64::from(k), 298.0)).collect();
         let levels = [level("95 %", vec![line.clone()])];
         let placed = place(&levels, &mut OccupancyMap::new(FRAME), 11.0);
         assert_eq!(placed.len(), 1);
-        assert!(placed[0].centre.1 < 298.0 - 6.0, "{placed:?}");
+        assert!(placed[0].centre.y < 298.0 - 6.0, "{placed:?}");
         let drawn: f64 = opened(0, &[line], &placed)
             .iter()
             .flat_map(|part| part.windows(2))
-            .map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1))
+            .map(|pair| (pair[1].x - pair[0].x).hypot(pair[1].y - pair[0].y))
             .sum();
         assert!((drawn - 400.0).abs() < 1e-9, "the line is whole: {drawn}");
     }
 
-    fn circle(radius: f64) -> Vec<(f64, f64)> {
+    fn circle(radius: f64) -> Vec<PlotPoint> {
         (0..=360)
             .map(|degree| {
                 let angle = f64::from(degree).to_radians();
-                (200.0 + radius * angle.cos(), 150.0 + radius * angle.sin())
+                PlotPoint::new(200.0 + radius * angle.cos(), 150.0 + radius * angle.sin())
             })
             .collect()
     }
@@ -469,7 +477,7 @@ mod tests {
         }
         for (at, one) in placed.iter().enumerate() {
             for other in &placed[at + 1..] {
-                let apart = (one.centre.0 - other.centre.0).hypot(one.centre.1 - other.centre.1);
+                let apart = (one.centre.x - other.centre.x).hypot(one.centre.y - other.centre.y);
                 assert!(apart > 12.0, "{one:?} {other:?}");
             }
         }
@@ -478,35 +486,36 @@ mod tests {
     #[test]
     fn labels_prefer_straight_sections() {
         // A zigzag, then a straight section.
-        let mut line: Vec<(f64, f64)> =
-            (0..40).map(|k| (5.0 * f64::from(k), 100.0 + 15.0 * f64::from(k % 2))).collect();
-        line.push((390.0, 100.0));
+        let mut line: Vec<PlotPoint> = (0..40)
+            .map(|k| PlotPoint::new(5.0 * f64::from(k), 100.0 + 15.0 * f64::from(k % 2)))
+            .collect();
+        line.push(PlotPoint::new(390.0, 100.0));
         let placed = place(&[level("40", vec![line])], &mut OccupancyMap::new(FRAME), 10.0);
         assert!(
-            !placed.is_empty() && placed.iter().all(|text| text.centre.0 > 200.0),
+            !placed.is_empty() && placed.iter().all(|text| text.centre.x > 200.0),
             "{placed:?}"
         );
     }
 
     #[test]
     fn labels_avoid_occupied_areas() {
-        let line = vec![(10.0, 150.0), (390.0, 150.0)];
+        let line = vec![PlotPoint::new(10.0, 150.0), PlotPoint::new(390.0, 150.0)];
         let mut occupied = OccupancyMap::new(FRAME);
         occupied.area(Rectangle { left: 0.0, top: 100.0, right: 300.0, bottom: 200.0 });
         let placed = place(&[level("40", vec![line.clone()])], &mut occupied, 10.0);
-        assert!(placed.len() == 1 && placed[0].centre.0 > 305.0, "{placed:?}");
+        assert!(placed.len() == 1 && placed[0].centre.x > 305.0, "{placed:?}");
         occupied.area(FRAME);
         assert!(place(&[level("40", vec![line])], &mut occupied, 10.0).is_empty());
     }
 
     #[test]
     fn a_line_is_interrupted_only_at_its_labels() {
-        let line = vec![(10.0, 150.0), (390.0, 150.0)];
+        let line = vec![PlotPoint::new(10.0, 150.0), PlotPoint::new(390.0, 150.0)];
         let levels = [level("40", vec![line.clone()])];
         let placed = place(&levels, &mut OccupancyMap::new(FRAME), 10.0);
         let drawn = opened(0, &levels[0].pieces, &placed);
         let length: f64 =
-            drawn.iter().flat_map(|part| part.windows(2)).map(|pair| pair[1].0 - pair[0].0).sum();
+            drawn.iter().flat_map(|part| part.windows(2)).map(|pair| pair[1].x - pair[0].x).sum();
         assert_eq!(drawn.len(), placed.len() + 1);
         let opening: f64 = placed.iter().map(|text| text.to - text.from).sum();
         assert!((length + opening - 380.0).abs() < 1e-9);

@@ -3,6 +3,7 @@
 use super::axis::{PlotAxis, Scale};
 use super::colouring::{ColourMap, Colouring};
 use super::field::Field;
+use super::geometry::{PlotPoint, PlotRange};
 use super::isoline::isolines;
 use super::palette::PlotRole;
 
@@ -158,7 +159,7 @@ impl Contours {
     }
 
     /// The lines of each level in values of x and y; the interpolation is linear along the axes as drawn.
-    pub(super) fn lines(&self, x: &PlotAxis, y: &PlotAxis) -> Vec<Vec<Vec<(f64, f64)>>> {
+    pub(super) fn lines(&self, x: &PlotAxis, y: &PlotAxis) -> Vec<Vec<Vec<PlotPoint>>> {
         let positions = |axis: &PlotAxis, values: &[f64]| -> Vec<f64> {
             values.iter().map(|value| axis.along(*value)).collect()
         };
@@ -185,7 +186,7 @@ impl Contours {
                     .map(|line| {
                         line.points
                             .iter()
-                            .map(|point| (back(x, point.0), back(y, point.1)))
+                            .map(|point| PlotPoint::new(back(x, point.x), back(y, point.y)))
                             .collect()
                     })
                     .collect()
@@ -212,7 +213,7 @@ fn printed(level: f64) -> String {
 }
 
 /// Round levels strictly within a range: multiples of 1, 2 or 5 times a power of ten.
-fn round_levels((least, most): (f64, f64), count: usize) -> Vec<f64> {
+fn round_levels(PlotRange { lower: least, upper: most }: PlotRange, count: usize) -> Vec<f64> {
     let width = 0.5 * most - 0.5 * least;
     if width <= 0.0 || count == 0 {
         return Vec::new();
@@ -238,10 +239,13 @@ mod tests {
 
     #[test]
     fn levels_are_round_and_within_the_range() {
-        assert_eq!(round_levels((0.0, 1.0), 5), vec![0.2, 0.4, 0.6000000000000001, 0.8]);
-        assert_eq!(round_levels((-3.0, 4.0), 3), vec![-2.0, 0.0, 2.0]);
-        assert!(round_levels((2.0, 2.0), 5).is_empty());
-        assert!(round_levels((-1e308, 1e308), 5).len() > 2);
+        assert_eq!(
+            round_levels(PlotRange::new(0.0, 1.0), 5),
+            vec![0.2, 0.4, 0.6000000000000001, 0.8]
+        );
+        assert_eq!(round_levels(PlotRange::new(-3.0, 4.0), 3), vec![-2.0, 0.0, 2.0]);
+        assert!(round_levels(PlotRange::new(2.0, 2.0), 5).is_empty());
+        assert!(round_levels(PlotRange::new(-1e308, 1e308), 5).len() > 2);
     }
 
     #[test]

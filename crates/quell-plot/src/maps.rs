@@ -5,6 +5,7 @@ use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::field::borders;
 use super::figure::Panel;
 use super::font_sizes::FontSizes;
+use super::geometry::PlotPoint;
 use super::layer::{Layer, ReferenceLine};
 use super::layout::{LegendLayout, PanelLayout};
 use super::line_labels::{self, LevelLines, OccupancyMap, PlacedLabel};
@@ -104,7 +105,7 @@ impl Isolines {
         for text in &self.placed {
             let (sin, cos) = text.rotation.to_radians().sin_cos();
             let drop = 0.36 * self.size;
-            let position = (text.centre.0 - drop * sin, text.centre.1 + drop * cos);
+            let position = PlotPoint::new(text.centre.x - drop * sin, text.centre.y + drop * cos);
             let colour = self.strokes[text.level].0;
             let setting = TextStyle {
                 colour: if colour == (0, 0, 0) { FRAME } else { colour },
@@ -123,10 +124,10 @@ impl Isolines {
             let across = half * cos.abs() + 0.5 * self.size * sin.abs();
             let up = half * sin.abs() + 0.5 * self.size * cos.abs();
             Rectangle {
-                left: text.centre.0 - across,
-                top: text.centre.1 - up,
-                right: text.centre.0 + across,
-                bottom: text.centre.1 + up,
+                left: text.centre.x - across,
+                top: text.centre.y - up,
+                right: text.centre.x + across,
+                bottom: text.centre.y + up,
             }
         })
     }
@@ -150,7 +151,9 @@ fn occupied(
             }
             Layer::Points(points) => {
                 let half = 0.5 * points.size;
-                for (left, top) in projection::point_pixels(&points.points, x, y, frame) {
+                for PlotPoint { x: left, y: top } in
+                    projection::point_pixels(&points.points, x, y, frame)
+                {
                     let mark = Rectangle { left, top, right: left, bottom: top };
                     occupied.area(mark.grown(half));
                 }

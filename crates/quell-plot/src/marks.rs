@@ -1,26 +1,29 @@
 //! Marks: markers of points and fills of regions, for panels and legends.
 
 use super::canvas::{Canvas, Rectangle, Stroke, path};
+use super::geometry::PlotPoint;
 use super::layer::{Fill, Marker};
 use super::palette::{PAPER, PlotRole};
 
 /// Draws markers at these pixels.
 pub(super) fn markers(
     canvas: &mut Canvas,
-    points: &[(f64, f64)],
+    points: &[PlotPoint],
     role: PlotRole,
     marker: Marker,
     size: f64,
 ) {
     let half = 0.5 * size;
     let colour = role.colour();
-    let shape = |corners: &[(f64, f64)]| -> Vec<Vec<(f64, f64)>> {
+    let shape = |corners: &[PlotPoint]| -> Vec<Vec<PlotPoint>> {
         points
             .iter()
             .map(|point| {
                 corners
                     .iter()
-                    .map(|corner| (point.0 + half * corner.0, point.1 + half * corner.1))
+                    .map(|corner| {
+                        PlotPoint::new(point.x + half * corner.x, point.y + half * corner.y)
+                    })
                     .collect()
             })
             .collect()
@@ -29,7 +32,7 @@ pub(super) fn markers(
     match marker {
         Marker::Disc | Marker::Circle => {
             // A stroke of zero length with round ends is a disc, and the shortest path for one.
-            let dots = path(&shape(&[(0.0, 0.0)]), false);
+            let dots = path(&shape(&[PlotPoint::new(0.0, 0.0)]), false);
             canvas.begin_group("stroke-linecap=\"round\"");
             canvas.stroke(&dots, &Stroke::solid(colour, size));
             if marker == Marker::Circle {
@@ -38,8 +41,8 @@ pub(super) fn markers(
             canvas.end_group();
         }
         Marker::Cross => {
-            let mut strokes = shape(&[(-0.85, -0.85), (0.85, 0.85)]);
-            strokes.extend(shape(&[(-0.85, 0.85), (0.85, -0.85)]));
+            let mut strokes = shape(&[PlotPoint::new(-0.85, -0.85), PlotPoint::new(0.85, 0.85)]);
+            strokes.extend(shape(&[PlotPoint::new(-0.85, 0.85), PlotPoint::new(0.85, -0.85)]));
             canvas.stroke(&path(&strokes, false), &outline);
         }
     }
@@ -48,10 +51,10 @@ pub(super) fn markers(
 /// The outline of a rectangle as a path.
 pub(super) fn outline(area: Rectangle) -> String {
     let corners = vec![
-        (area.left, area.top),
-        (area.right, area.top),
-        (area.right, area.bottom),
-        (area.left, area.bottom),
+        PlotPoint::new(area.left, area.top),
+        PlotPoint::new(area.right, area.top),
+        PlotPoint::new(area.right, area.bottom),
+        PlotPoint::new(area.left, area.bottom),
     ];
     path(&[corners], true)
 }
@@ -65,7 +68,12 @@ pub(super) fn union(cells: &[bool], columns: &[(f64, f64)], rows: &[(f64, f64)])
     let mut open: Vec<((usize, usize), (f64, f64))> = Vec::new();
     let close = |((first, last), (from, to)): ((usize, usize), (f64, f64))| {
         let (left, right) = (columns[first].0, columns[last].1);
-        vec![(left, from), (right, from), (right, to), (left, to)]
+        vec![
+            PlotPoint::new(left, from),
+            PlotPoint::new(right, from),
+            PlotPoint::new(right, to),
+            PlotPoint::new(left, to),
+        ]
     };
     for (row, ends) in cells.chunks(columns.len().max(1)).zip(rows) {
         let mut runs: Vec<(usize, usize)> = Vec::new();

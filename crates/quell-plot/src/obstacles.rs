@@ -3,6 +3,7 @@
 use super::canvas::Rectangle;
 use super::figure::Panel;
 use super::font_sizes::FontSizes;
+use super::geometry::PlotPoint;
 use super::layer::Layer;
 use super::layout::PanelLayout;
 use super::projection::{self, reference_line_ends};
@@ -10,7 +11,7 @@ use super::projection::{self, reference_line_ends};
 /// Strokes, points and texts of a panel (pixels).
 #[derive(Debug, Default)]
 pub(super) struct Obstacles {
-    strokes: Vec<Vec<(f64, f64)>>,
+    strokes: Vec<Vec<PlotPoint>>,
     texts: Vec<Rectangle>,
 }
 
@@ -63,7 +64,7 @@ impl Obstacles {
     }
 
     /// Adds a line.
-    pub(super) fn add_stroke(&mut self, line: Vec<(f64, f64)>) {
+    pub(super) fn add_stroke(&mut self, line: Vec<PlotPoint>) {
         self.strokes.push(line);
     }
 
@@ -94,14 +95,14 @@ fn overlap(one: &Rectangle, other: &Rectangle) -> bool {
 }
 
 /// Whether a line segment intersects a rectangle (Liang–Barsky).
-fn crosses(from: (f64, f64), to: (f64, f64), area: &Rectangle) -> bool {
-    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+fn crosses(from: PlotPoint, to: PlotPoint, area: &Rectangle) -> bool {
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for (step, room) in [
-        (-dx, from.0 - area.left),
-        (dx, area.right - from.0),
-        (-dy, from.1 - area.top),
-        (dy, area.bottom - from.1),
+        (-dx, from.x - area.left),
+        (dx, area.right - from.x),
+        (-dy, from.y - area.top),
+        (dy, area.bottom - from.y),
     ] {
         if step == 0.0 {
             if room < 0.0 {
@@ -123,10 +124,10 @@ mod tests {
     #[test]
     fn segments_that_intersect_a_rectangle_are_detected() {
         let area = Rectangle { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
-        assert!(crosses((-5.0, 5.0), (15.0, 5.0), &area));
-        assert!(crosses((5.0, 5.0), (5.0, 5.0), &area));
-        assert!(!crosses((-5.0, 12.0), (15.0, 11.0), &area));
-        assert!(!crosses((-5.0, 5.0), (-1.0, 5.0), &area));
-        assert!(!crosses((8.0, 14.0), (14.0, 8.0), &area));
+        assert!(crosses(PlotPoint::new(-5.0, 5.0), PlotPoint::new(15.0, 5.0), &area));
+        assert!(crosses(PlotPoint::new(5.0, 5.0), PlotPoint::new(5.0, 5.0), &area));
+        assert!(!crosses(PlotPoint::new(-5.0, 12.0), PlotPoint::new(15.0, 11.0), &area));
+        assert!(!crosses(PlotPoint::new(-5.0, 5.0), PlotPoint::new(-1.0, 5.0), &area));
+        assert!(!crosses(PlotPoint::new(8.0, 14.0), PlotPoint::new(14.0, 8.0), &area));
     }
 }

@@ -3,26 +3,31 @@
 use super::axis::Mapping;
 use super::canvas::Rectangle;
 use super::font_sizes::FontSizes;
+use super::geometry::PlotPoint;
 use super::layer::{Note, Orientation};
 use super::thin;
 use super::typeset::{LINE_HEIGHT, RichText, wrap};
 
+/// A point in pixels; `None` if the axes cannot represent it.
+fn pixel(point: &PlotPoint, x: &Mapping, y: &Mapping) -> Option<PlotPoint> {
+    Some(PlotPoint::new(x.pixel(point.x)?, y.pixel(point.y)?))
+}
+
 /// Pieces of a curve in pixels, without the parts left and right of the frame, and thinned.
 pub(super) fn pixels(
-    pieces: &[Vec<(f64, f64)>],
+    pieces: &[Vec<PlotPoint>],
     x: &Mapping,
     y: &Mapping,
     frame: Rectangle,
-) -> Vec<Vec<(f64, f64)>> {
-    let beside = |point: (f64, f64)| {
-        if point.0 < frame.left - 2.0 { -1 } else { i32::from(point.0 > frame.right + 2.0) }
+) -> Vec<Vec<PlotPoint>> {
+    let beside = |point: PlotPoint| {
+        if point.x < frame.left - 2.0 { -1 } else { i32::from(point.x > frame.right + 2.0) }
     };
     let mut drawn = Vec::new();
     for piece in pieces {
-        let mapped: Vec<Option<(f64, f64)>> =
-            piece.iter().map(|&(at, value)| x.pixel(at).zip(y.pixel(value))).collect();
+        let mapped: Vec<Option<PlotPoint>> = piece.iter().map(|point| pixel(point, x, y)).collect();
         for run in mapped.split(Option::is_none) {
-            let run: Vec<(f64, f64)> = run.iter().copied().flatten().collect();
+            let run: Vec<PlotPoint> = run.iter().copied().flatten().collect();
             let visible = run.chunk_by(|before, after| {
                 beside(*before) == 0 || beside(*before) != beside(*after)
             });
@@ -38,22 +43,19 @@ pub(super) fn pixels(
 
 /// Points in pixels: those inside the frame, without points that would be drawn on top of each other.
 pub(super) fn point_pixels(
-    points: &[(f64, f64)],
+    points: &[PlotPoint],
     x: &Mapping,
     y: &Mapping,
     frame: Rectangle,
-) -> Vec<(f64, f64)> {
-    let inside = |point: &(f64, f64)| {
-        point.0 >= frame.left - 0.5
-            && point.0 <= frame.right + 0.5
-            && point.1 >= frame.top - 0.5
-            && point.1 <= frame.bottom + 0.5
+) -> Vec<PlotPoint> {
+    let inside = |point: &PlotPoint| {
+        point.x >= frame.left - 0.5
+            && point.x <= frame.right + 0.5
+            && point.y >= frame.top - 0.5
+            && point.y <= frame.bottom + 0.5
     };
-    let drawn: Vec<(f64, f64)> = points
-        .iter()
-        .filter_map(|&(at, value)| x.pixel(at).zip(y.pixel(value)))
-        .filter(inside)
-        .collect();
+    let drawn: Vec<PlotPoint> =
+        points.iter().filter_map(|point| pixel(point, x, y)).filter(inside).collect();
     thin::scatter(&drawn)
 }
 
@@ -64,15 +66,15 @@ pub(super) fn reference_line_ends(
     x: &Mapping,
     y: &Mapping,
     frame: Rectangle,
-) -> Option<Vec<(f64, f64)>> {
+) -> Option<Vec<PlotPoint>> {
     match orientation {
         Orientation::Vertical => {
             let x = x.pixel(value).filter(|x| *x >= frame.left && *x <= frame.right)?;
-            Some(vec![(x, frame.bottom), (x, frame.top)])
+            Some(vec![PlotPoint::new(x, frame.bottom), PlotPoint::new(x, frame.top)])
         }
         Orientation::Horizontal => {
             let y = y.pixel(value).filter(|y| *y >= frame.top && *y <= frame.bottom)?;
-            Some(vec![(frame.left, y), (frame.right, y)])
+            Some(vec![PlotPoint::new(frame.left, y), PlotPoint::new(frame.right, y)])
         }
     }
 }
@@ -84,7 +86,7 @@ pub(super) fn note_area(
     frame: Rectangle,
     sizes: FontSizes,
 ) -> Option<(Rectangle, Vec<RichText>)> {
-    let at = (x.pixel(note.at.0)?, y.pixel(note.at.1)?);
+    let at = (x.pixel(note.at.x)?, y.pixel(note.at.y)?);
     let size = f64::from(sizes.note);
     let lines = wrap(&note.text, size, false, frame.width() - 8.0);
     let width = lines.iter().map(|line| line.width(size, false)).fold(0.0, f64::max);

@@ -115,14 +115,16 @@ impl Raster {
 
 #[cfg(test)]
 mod tests {
+    use super::super::geometry::PlotRange;
     use super::*;
     use crate::{Colouring, Palette, PlotRole, Shading, Tint};
 
     const FRAME: Rectangle = Rectangle { left: 10.0, top: 20.0, right: 110.0, bottom: 70.0 };
 
-    fn mapping(axis: &PlotAxis, limits: (f64, f64), upright: bool) -> Mapping {
-        let pixels = if upright { (FRAME.bottom, FRAME.top) } else { (FRAME.left, FRAME.right) };
-        Mapping::new(axis, limits, pixels)
+    fn mapping(axis: &PlotAxis, limits: PlotRange, upright: bool) -> Mapping {
+        let (first, last) =
+            if upright { (FRAME.bottom, FRAME.top) } else { (FRAME.left, FRAME.right) };
+        Mapping::new(axis, limits, first, last)
     }
 
     fn outcomes() -> ColourMap {
@@ -135,7 +137,10 @@ mod tests {
         let (x, y) = (PlotAxis::new("x").log(), PlotAxis::new("y"));
         let values = vec![Some(0.0), Some(1.0), None, Some(2.0), Some(3.0), Some(0.0)];
         let field = Field::new(vec![1.0, 10.0, 10_000.0], vec![0.0, 1.0], values).expect("a field");
-        let maps = (mapping(&x, (1.0, 10_000.0), false), mapping(&y, (0.0, 1.0), true));
+        let maps = (
+            mapping(&x, PlotRange::new(1.0, 10_000.0), false),
+            mapping(&y, PlotRange::new(0.0, 1.0), true),
+        );
         let image = raster(&field, &outcomes(), (&x, &y), (&maps.0, &maps.1), FRAME);
         assert_eq!((image.width, image.height), (200, 100));
         let row = |number: usize| &image.indices[number * 200..(number + 1) * 200];
@@ -151,7 +156,10 @@ mod tests {
         let axis = PlotAxis::new("x");
         let field =
             Field::new(vec![1.0, 2.0], vec![1.0, 2.0], vec![Some(1.0); 4]).expect("a field");
-        let maps = (mapping(&axis, (0.0, 5.0), false), mapping(&axis, (1.0, 2.0), true));
+        let maps = (
+            mapping(&axis, PlotRange::new(0.0, 5.0), false),
+            mapping(&axis, PlotRange::new(1.0, 2.0), true),
+        );
         let image = raster(&field, &outcomes(), (&axis, &axis), (&maps.0, &maps.1), FRAME);
         let printed = image.indices[..200].iter().filter(|index| **index != CLEAR).count();
         // From 0.5 to 2.5 of 5.
@@ -160,8 +168,10 @@ mod tests {
 
     #[test]
     fn an_encoded_image_decodes_to_its_colours() {
-        let colour_map =
-            ColourMap::new(&Colouring::Shaded(Shading::new(Palette::Viridis)), Some((0.0, 1.0)));
+        let colour_map = ColourMap::new(
+            &Colouring::Shaded(Shading::new(Palette::Viridis)),
+            Some(PlotRange::new(0.0, 1.0)),
+        );
         let image = Raster { width: 2, height: 2, indices: vec![0, 249, CLEAR, 10] };
         let bytes = image.png(&colour_map.colours()).expect("a PNG");
         let mut decoder = png::Decoder::new(bytes.as_slice());

@@ -27,7 +27,7 @@ pub(super) fn place(
     let at = *reference_line_ends(rule.orientation, rule.value, x, y, frame)?.first()?;
     let size = f64::from(sizes.note);
     let room = match rule.orientation {
-        Orientation::Vertical => (frame.right - at.0).max(at.0 - frame.left) - 2.0 * GAP,
+        Orientation::Vertical => (frame.right - at.x).max(at.x - frame.left) - 2.0 * GAP,
         Orientation::Horizontal => frame.width() - 4.0 * GAP,
     };
     let lines = wrap(&rule.label, size, false, room);
@@ -35,7 +35,7 @@ pub(super) fn place(
     let height = (0.95 + LINE_HEIGHT * lines.len().saturating_sub(1) as f64) * size;
     let (lefts, tops) = match rule.orientation {
         Orientation::Vertical => (
-            vec![at.0 + GAP, at.0 - GAP - width],
+            vec![at.x + GAP, at.x - GAP - width],
             vec![
                 frame.top + 2.0 * GAP,
                 frame.bottom - 2.0 * GAP - height,
@@ -50,7 +50,7 @@ pub(super) fn place(
                 frame.left + 2.0 * GAP,
                 0.5 * (frame.left + frame.right - width),
             ],
-            vec![at.1 - 0.6 * GAP - height, at.1 + 0.6 * GAP],
+            vec![at.y - 0.6 * GAP - height, at.y + 0.6 * GAP],
         ),
     };
     let best = |tops: &[f64]| {

@@ -4,6 +4,8 @@
 //! and last are kept (so no extremum is lost); then points that lie within a twentieth of a pixel
 //! of the stroke between their neighbours are dropped. This works for any curve, including one that reverses in x.
 
+use super::geometry::PlotPoint;
+
 /// Width of a column (pixels).
 const COLUMN: f64 = 0.5;
 /// Maximum displacement of the stroke (pixels).
@@ -12,12 +14,12 @@ const SLACK: f64 = 0.05;
 const GRAIN: f64 = 0.25;
 
 /// Thins a polyline; input and output in pixels.
-pub(super) fn polyline(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub(super) fn polyline(points: &[PlotPoint]) -> Vec<PlotPoint> {
     if points.len() <= 64 {
         return points.to_vec();
     }
     let mut kept = Vec::new();
-    for run in points.chunk_by(|before, after| column(before.0) == column(after.0)) {
+    for run in points.chunk_by(|before, after| column(before.x) == column(after.x)) {
         keep_extremes(run, &mut kept);
     }
     straighten(&kept)
@@ -29,17 +31,17 @@ fn column(x: f64) -> i64 {
     column
 }
 
-fn keep_extremes(run: &[(f64, f64)], kept: &mut Vec<(f64, f64)>) {
+fn keep_extremes(run: &[PlotPoint], kept: &mut Vec<PlotPoint>) {
     if run.len() <= 4 {
         kept.extend_from_slice(run);
         return;
     }
     let (mut lowest, mut highest) = (0, 0);
     for (index, point) in run.iter().enumerate() {
-        if point.1 < run[lowest].1 {
+        if point.y < run[lowest].y {
             lowest = index;
         }
-        if point.1 > run[highest].1 {
+        if point.y > run[highest].y {
             highest = index;
         }
     }
@@ -52,7 +54,7 @@ fn keep_extremes(run: &[(f64, f64)], kept: &mut Vec<(f64, f64)>) {
 ///
 /// From each kept point, the cone of directions that pass close enough to all later points is
 /// narrowed until it is empty; the previous point is the next kept one.
-fn straighten(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+fn straighten(points: &[PlotPoint]) -> Vec<PlotPoint> {
     let Some(&first) = points.first() else {
         return Vec::new();
     };
@@ -62,7 +64,7 @@ fn straighten(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut reach = 0.0_f64;
     let mut previous = first;
     for &point in &points[1..] {
-        let (dx, dy) = (point.0 - anchor.0, point.1 - anchor.1);
+        let (dx, dy) = (point.x - anchor.x, point.y - anchor.y);
         let distance = dx.hypot(dy);
         if distance <= SLACK && cone.is_none() {
             previous = point;
@@ -84,7 +86,7 @@ fn straighten(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
         } else {
             kept.push(previous);
             anchor = previous;
-            let (dx, dy) = (point.0 - anchor.0, point.1 - anchor.1);
+            let (dx, dy) = (point.x - anchor.x, point.y - anchor.y);
             reach = dx.hypot(dy);
             let opening = (SLACK / reach.max(SLACK)).asin();
             cone = (reach > SLACK).then(|| (dy.atan2(dx), -opening, opening));
@@ -103,22 +105,26 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Scattered points without those that would be drawn on top of an earlier one.
-pub(super) fn scatter(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub(super) fn scatter(points: &[PlotPoint]) -> Vec<PlotPoint> {
     let mut seen = std::collections::HashSet::new();
     #[expect(clippy::cast_possible_truncation, reason = "pixels are clamped to 1e5")]
     let grain = |pixel: f64| (pixel / GRAIN).round() as i64;
-    points.iter().copied().filter(|(x, y)| seen.insert((grain(*x), grain(*y)))).collect()
+    points
+        .iter()
+        .copied()
+        .filter(|PlotPoint { x, y }| seen.insert((grain(*x), grain(*y))))
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn wave(count: u32) -> Vec<(f64, f64)> {
+    fn wave(count: u32) -> Vec<PlotPoint> {
         (0..count)
             .map(|step| {
                 let x = 500.0 * f64::from(step) / f64::from(count);
-                (x, 100.0 + 80.0 * (3.7 * x).sin() * (0.01 * x).cos())
+                PlotPoint::new(x, 100.0 + 80.0 * (3.7 * x).sin() * (0.01 * x).cos())
             })
             .collect()
     }
@@ -126,19 +132,19 @@ mod tests {
     #[test]
     fn extremes_of_every_column_are_kept() {
         let mut points = wave(100_000);
-        points[56_789].1 = 199.0;
+        points[56_789].y = 199.0;
         let thin = polyline(&points);
         assert!(thin.len() < 6_000, "{}", thin.len());
         assert_eq!(thin.first(), points.first());
         assert_eq!(thin.last(), points.last());
         assert!(thin.contains(&points[56_789]));
-        for run in points.chunk_by(|a, b| column(a.0) == column(b.0)) {
-            let by_height = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        for run in points.chunk_by(|a, b| column(a.x) == column(b.x)) {
+            let by_height = |a: &&PlotPoint, b: &&PlotPoint| a.y.total_cmp(&b.y);
             let ends = [run.iter().min_by(by_height), run.iter().max_by(by_height)];
             for extreme in ends.into_iter().flatten() {
                 let distance = thin
                     .windows(2)
-                    .filter(|ends| (ends[0].0 - extreme.0).abs() < 20.0)
+                    .filter(|ends| (ends[0].x - extreme.x).abs() < 20.0)
                     .map(|ends| distance(*extreme, ends[0], ends[1]))
                     .fold(f64::INFINITY, f64::min);
                 assert!(distance < 2.0 * SLACK, "{extreme:?} lies {distance} off");
@@ -146,9 +152,9 @@ mod tests {
         }
     }
 
-    fn distance(point: (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
-        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-        let (px, py) = (point.0 - from.0, point.1 - from.1);
+    fn distance(point: PlotPoint, from: PlotPoint, to: PlotPoint) -> f64 {
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        let (px, py) = (point.x - from.x, point.y - from.y);
         let length = dx * dx + dy * dy;
         let along = if length > 0.0 { ((px * dx + py * dy) / length).clamp(0.0, 1.0) } else { 0.0 };
         (px - along * dx).hypot(py - along * dy)
@@ -159,27 +165,29 @@ mod tests {
         let circle: Vec<_> = (0..20_000)
             .map(|step| {
                 let angle = 1e-3 * f64::from(step);
-                (150.0 * angle.cos(), 150.0 * angle.sin())
+                PlotPoint::new(150.0 * angle.cos(), 150.0 * angle.sin())
             })
             .collect();
         let thin = straighten(&circle);
         assert!(thin.len() < 1_000 && thin.len() > 50, "{}", thin.len());
         for ends in thin.windows(2) {
-            let middle = (0.5 * (ends[0].0 + ends[1].0), 0.5 * (ends[0].1 + ends[1].1));
+            let middle = (0.5 * (ends[0].x + ends[1].x), 0.5 * (ends[0].y + ends[1].y));
             assert!((middle.0.hypot(middle.1) - 150.0).abs() < 2.0 * SLACK);
         }
     }
 
     #[test]
     fn a_reversing_stroke_keeps_its_reversal_point() {
-        let mut points: Vec<_> = (0..100).map(|step| (f64::from(step), 0.0)).collect();
-        points.extend((0..100).map(|step| (99.0 - f64::from(step), 0.0)));
-        assert!(straighten(&points).contains(&(99.0, 0.0)));
+        let mut points: Vec<_> =
+            (0..100).map(|step| PlotPoint::new(f64::from(step), 0.0)).collect();
+        points.extend((0..100).map(|step| PlotPoint::new(99.0 - f64::from(step), 0.0)));
+        assert!(straighten(&points).contains(&PlotPoint::new(99.0, 0.0)));
     }
 
     #[test]
     fn coincident_points_are_drawn_once() {
-        let points = vec![(1.0, 1.0), (1.01, 1.0), (5.0, 1.0)];
-        assert_eq!(scatter(&points), vec![(1.0, 1.0), (5.0, 1.0)]);
+        let points =
+            vec![PlotPoint::new(1.0, 1.0), PlotPoint::new(1.01, 1.0), PlotPoint::new(5.0, 1.0)];
+        assert_eq!(scatter(&points), vec![PlotPoint::new(1.0, 1.0), PlotPoint::new(5.0, 1.0)]);
     }
 }

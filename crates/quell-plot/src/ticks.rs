@@ -1,6 +1,7 @@
 //! Ticks: positions of the marks of an axis, and their labels.
 
 use super::axis::{PlotAxis, Scale};
+use super::geometry::PlotRange;
 use super::typeset::{RichText, number};
 
 /// The marks of one axis.
@@ -30,17 +31,17 @@ impl Ticks {
     }
 
     /// Ticks for an axis with these limits.
-    pub(super) fn of(axis: &PlotAxis, limits: (f64, f64), room: Room) -> Self {
+    pub(super) fn of(axis: &PlotAxis, limits: PlotRange, room: Room) -> Self {
         if let Some(chosen) = &axis.ticks {
-            let inside = |value: &f64| *value >= limits.0 && *value <= limits.1;
+            let inside = |value: &f64| *value >= limits.lower && *value <= limits.upper;
             let values: Vec<f64> = chosen.iter().copied().filter(inside).collect();
             let step = values
                 .windows(2)
                 .map(|pair| (pair[1] - pair[0]).abs())
-                .fold(limits.1 - limits.0, f64::min);
+                .fold(limits.upper - limits.lower, f64::min);
             return Self::linear(values, Vec::new(), step);
         }
-        if axis.scale == Scale::Log && limits.1 / limits.0 >= 10.0 {
+        if axis.scale == Scale::Log && limits.upper / limits.lower >= 10.0 {
             return Self::logarithmic(limits, room);
         }
         let most = match room {
@@ -58,8 +59,8 @@ impl Ticks {
         }
     }
 
-    fn evenly(limits: (f64, f64), count: usize) -> Self {
-        let step = step_for((limits.1 - limits.0) / count as f64);
+    fn evenly(limits: PlotRange, count: usize) -> Self {
+        let step = step_for((limits.upper - limits.lower) / count as f64);
         let values = multiples(limits, step);
         let leading = step / 10f64.powf((step.log10() + 1e-9).floor());
         let parts = if (leading - 2.0).abs() < 0.1 { 4 } else { 5 };
@@ -68,7 +69,7 @@ impl Ticks {
             .map(|first| {
                 (-parts..=parts * 12)
                     .map(|part| first + step * f64::from(part) / f64::from(parts))
-                    .filter(|value| *value > limits.0 && *value < limits.1)
+                    .filter(|value| *value > limits.lower && *value < limits.upper)
                     .collect()
             })
             .unwrap_or_default();
@@ -93,8 +94,8 @@ impl Ticks {
         Self { major, minor, exponent }
     }
 
-    fn logarithmic(limits: (f64, f64), room: Room) -> Self {
-        let (low, high) = (limits.0.log10(), limits.1.log10());
+    fn logarithmic(limits: PlotRange, room: Room) -> Self {
+        let (low, high) = (limits.lower.log10(), limits.upper.log10());
         let decades = high - low;
         let most = match room {
             Room::Across(pixels, _) => pixels / 45.0,
@@ -108,8 +109,9 @@ impl Ticks {
         let (first, last, stride) =
             (low.floor() as i32, high.ceil() as i32, (decades / most).ceil().max(1.0) as i32);
         let plain = first >= -2 && last <= 3 && decades < 3.2;
-        let inside =
-            |value: &f64| *value >= limits.0 * (1.0 - 1e-9) && *value <= limits.1 * (1.0 + 1e-9);
+        let inside = |value: &f64| {
+            *value >= limits.lower * (1.0 - 1e-9) && *value <= limits.upper * (1.0 + 1e-9)
+        };
         let (mut major, mut minor) = (Vec::new(), Vec::new());
         for exponent in first..=last {
             let decade = 10f64.powi(exponent);
@@ -128,11 +130,11 @@ impl Ticks {
         Self { major, minor, exponent: 0 }
     }
 
-    fn fits(&self, axis: &PlotAxis, limits: (f64, f64), room: Room) -> bool {
+    fn fits(&self, axis: &PlotAxis, limits: PlotRange, room: Room) -> bool {
         let Room::Across(pixels, size) = room else {
             return true;
         };
-        let per_unit = pixels / (axis.along(limits.1) - axis.along(limits.0));
+        let per_unit = pixels / (axis.along(limits.upper) - axis.along(limits.lower));
         self.major.windows(2).all(|pair| {
             let apart = (axis.along(pair[1].0) - axis.along(pair[0].0)) * per_unit;
             apart
@@ -158,7 +160,7 @@ const CLOSE: f64 = 1e-6;
 /// The multiples of `step` within the limits.
 ///
 /// `step` is that of [`step_for`], which leaves about 15 of them at most.
-fn multiples((lower, upper): (f64, f64), step: f64) -> Vec<f64> {
+fn multiples(PlotRange { lower, upper }: PlotRange, step: f64) -> Vec<f64> {
     // The range of the limits overflows.
     if !step.is_finite() {
         return Vec::new();
@@ -216,7 +218,7 @@ mod tests {
 
     #[test]
     fn labels_of_one_axis_have_equal_decimals() {
-        let ticks = Ticks::of(&PlotAxis::new("x"), (0.0, 1.0), Room::Upright(200.0));
+        let ticks = Ticks::of(&PlotAxis::new("x"), PlotRange::new(0.0, 1.0), Room::Upright(200.0));
         assert_eq!(ticks.major[0].1, RichText::parse("0.0"));
         assert!(ticks.major.len() >= 4);
         assert_eq!(decimals(0.25), 2);
@@ -225,32 +227,36 @@ mod tests {
 
     #[test]
     fn multiples_are_within_the_limits_and_without_rounding_errors() {
-        assert_eq!(multiples((0.0, 0.3), 0.1), [0.0, 0.1, 0.2, 0.3]);
-        assert_eq!(multiples((0.0, 0.35), 0.1), [0.0, 0.1, 0.2, 0.3]);
-        assert_eq!(multiples((-0.2, 0.21), 0.1), [-0.2, -0.1, 0.0, 0.1, 0.2]);
-        assert_eq!(multiples((1.0, 1.7), 0.2), [1.0, 1.2, 1.4, 1.6]);
-        assert_eq!(multiples((2.5e-12, 6e-12), 1e-12), [3e-12, 4e-12, 5e-12, 6e-12]);
-        assert!(multiples((0.31, 0.39), 0.1).is_empty());
-        assert!(multiples((f64::MIN, f64::MAX), f64::INFINITY).is_empty());
+        assert_eq!(multiples(PlotRange::new(0.0, 0.3), 0.1), [0.0, 0.1, 0.2, 0.3]);
+        assert_eq!(multiples(PlotRange::new(0.0, 0.35), 0.1), [0.0, 0.1, 0.2, 0.3]);
+        assert_eq!(multiples(PlotRange::new(-0.2, 0.21), 0.1), [-0.2, -0.1, 0.0, 0.1, 0.2]);
+        assert_eq!(multiples(PlotRange::new(1.0, 1.7), 0.2), [1.0, 1.2, 1.4, 1.6]);
+        assert_eq!(multiples(PlotRange::new(2.5e-12, 6e-12), 1e-12), [3e-12, 4e-12, 5e-12, 6e-12]);
+        assert!(multiples(PlotRange::new(0.31, 0.39), 0.1).is_empty());
+        assert!(multiples(PlotRange::new(f64::MIN, f64::MAX), f64::INFINITY).is_empty());
     }
 
     #[test]
     fn small_values_share_a_power_of_ten() {
-        let ticks = Ticks::of(&PlotAxis::new("x"), (0.0, 3e-5), Room::Upright(200.0));
+        let ticks = Ticks::of(&PlotAxis::new("x"), PlotRange::new(0.0, 3e-5), Room::Upright(200.0));
         assert_eq!(ticks.exponent, -5);
     }
 
     #[test]
     fn a_log_axis_is_labelled_at_decades() {
         let axis = PlotAxis::new("f").log();
-        let ticks = Ticks::of(&axis, (1e-6, 1e2), Room::Upright(300.0));
+        let ticks = Ticks::of(&axis, PlotRange::new(1e-6, 1e2), Room::Upright(300.0));
         assert!(printed(&ticks).iter().any(|value| (value - 1e-3).abs() < 1e-12));
         assert!(ticks.major.len() >= 4 && ticks.major.len() <= 9);
     }
 
     #[test]
     fn labels_side_by_side_do_not_overlap() {
-        let ticks = Ticks::of(&PlotAxis::new("x"), (-0.0123, 0.0117), Room::Across(120.0, 11.0));
+        let ticks = Ticks::of(
+            &PlotAxis::new("x"),
+            PlotRange::new(-0.0123, 0.0117),
+            Room::Across(120.0, 11.0),
+        );
         let widest =
             ticks.major.iter().map(|(_, label)| label.width(11.0, false)).fold(0.0, f64::max);
         assert!(widest * ticks.major.len() as f64 <= 160.0);

@@ -7,7 +7,8 @@ use std::path::Path;
 use flate2::read::GzDecoder;
 use quell_plot::{
     CaptionPlacement, Colouring, Contours, Field, Figure, Heatmap, Legend, Palette, Panel,
-    PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Shading, SharedLegend, Sharing, Size,
+    PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine, Shading, SharedLegend, Sharing,
+    Size,
 };
 use resvg::usvg::{self, Node, Options, Tree};
 
@@ -17,8 +18,9 @@ const COLUMN: f64 = 85.0 / 25.4 * 96.0;
 const SEVEN_POINTS: f64 = 7.0 / 72.0 * 96.0;
 
 fn curves(title: &str) -> Panel {
-    let wave =
-        |phase: f64| (0..200).map(|k| 0.4 * f64::from(k)).map(move |t| (t, (t + phase).sin()));
+    let wave = |phase: f64| {
+        (0..200).map(|k| 0.4 * f64::from(k)).map(move |t| PlotPoint::new(t, (t + phase).sin()))
+    };
     Panel::new(
         PlotAxis::new("time after the start of the run").symbol("τ"),
         PlotAxis::new("displacement of the mass").symbol("x").unit("mm"),

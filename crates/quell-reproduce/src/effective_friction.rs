@@ -17,8 +17,8 @@ use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Figure, Legend, LegendPosition, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine,
-    SharedLegend, Sharing, Size,
+    Figure, Legend, LegendPosition, LineStyle, Panel, PlotAxis, PlotPoint, PlotRole, Polyline,
+    ReferenceLine, SharedLegend, Sharing, Size,
 };
 use quell::study::BeltStudy;
 
@@ -129,13 +129,16 @@ fn panel(
         for w in grid(corner) {
             if alpha == 0.0 && w == 0.0 {
                 // The jump of the law itself.
-                pieces.last_mut().into_iter().for_each(|piece| piece.push((0.0, -static_level)));
-                pieces.push(vec![(0.0, static_level)]);
+                let [below, above] =
+                    [-static_level, static_level].map(|mu| PlotPoint::new(0.0, mu));
+                pieces.last_mut().into_iter().for_each(|piece| piece.push(below));
+                pieces.push(vec![above]);
                 continue;
             }
             let found =
                 effective(law, &motion, w * vm).map_err(|error| failed(source.name, &error))?;
-            pieces.last_mut().into_iter().for_each(|piece| piece.push((w, found.coefficient)));
+            let point = PlotPoint::new(w, found.coefficient);
+            pieces.last_mut().into_iter().for_each(|piece| piece.push(point));
             table.row([
                 waveform.name().into(),
                 (alpha / vm).into(),
@@ -149,11 +152,11 @@ fn panel(
             printed.push(
                 grid(corner)
                     .into_iter()
-                    .filter_map(|w| Some((w, as_printed(w)?)))
+                    .filter_map(|w| Some(PlotPoint::new(w, as_printed(w)?)))
                     .collect::<Vec<_>>(),
             );
         } else {
-            let jump = [(0.0, -static_level), (0.0, static_level)];
+            let jump = [PlotPoint::new(0.0, -static_level), PlotPoint::new(0.0, static_level)];
             panel = panel.with(Polyline::new(PlotRole::Guide, jump).style(LineStyle::Solid));
         }
         let label = format!("$α$/$v_m$ = {}", short(alpha / vm));

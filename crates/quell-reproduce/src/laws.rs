@@ -11,7 +11,8 @@ use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Figure, Legend, LegendPosition, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine,
+    Figure, Legend, LegendPosition, LineStyle, Panel, PlotAxis, PlotPoint, PlotRole, Polyline,
+    ReferenceLine,
 };
 use quell::study::BeltStudy;
 
@@ -58,19 +59,22 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         let static_level = law.static_coefficient();
         let style = STYLES[index % STYLES.len()];
         panel = panel.with(
-            Polyline::new(PlotRole::Guide, [(0.0, -static_level), (0.0, static_level)])
-                .style(LineStyle::Solid),
+            Polyline::new(
+                PlotRole::Guide,
+                [PlotPoint::new(0.0, -static_level), PlotPoint::new(0.0, static_level)],
+            )
+            .style(LineStyle::Solid),
         );
         let sides = [
             grid()
                 .filter(|w| *w < 0.0)
                 .chain([-0.0])
-                .map(|w| (w, signed(law, w)))
+                .map(|w| PlotPoint::new(w, signed(law, w)))
                 .collect::<Vec<_>>(),
             [0.0]
                 .into_iter()
                 .chain(grid().filter(|w| *w > 0.0))
-                .map(|w| (w, signed(law, w)))
+                .map(|w| PlotPoint::new(w, signed(law, w)))
                 .collect(),
         ];
         let name = format!("{} law", law_name(law.kind()));

@@ -29,7 +29,7 @@ use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Figure, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
+    Figure, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
 };
 
 /// Duration of a decay.
@@ -61,7 +61,7 @@ pub(super) struct FrictionPanel {
     /// (v_r, median of f/N, number of windows) of each bin.
     bins: Vec<(f64, f64, usize)>,
     /// (v_r, μ̄) of the averaging approximation.
-    pub(super) averaged: Vec<(f64, f64)>,
+    pub(super) averaged: Vec<PlotPoint>,
 }
 
 /// Measures the cases of a figure.
@@ -151,7 +151,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         }
         let law_curve = (0..=POINTS)
             .map(|k| TO * f64::from(k) / f64::from(POINTS))
-            .map(|v| (v, law.coefficient(v)));
+            .map(|v| PlotPoint::new(v, law.coefficient(v)));
         let title = format!("({}) $D_N$ = {}", letter(index), case.amplitude);
         panels.push(
             Panel::new(
@@ -164,7 +164,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
             .with(
                 Points::new(
                     PlotRole::Guide,
-                    case.windows.iter().map(|w| (w.slip_velocity, w.coefficient)),
+                    case.windows.iter().map(|w| PlotPoint::new(w.slip_velocity, w.coefficient)),
                 )
                 .size(1.2)
                 .label("free decays, windows without stick"),
@@ -176,7 +176,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
             .with(
                 Points::new(
                     PlotRole::Dithered,
-                    case.bins.iter().map(|&(v, median, _)| (v, median)),
+                    case.bins.iter().map(|&(v, median, _)| PlotPoint::new(v, median)),
                 )
                 .size(2.4)
                 .label("free decays, medians"),
@@ -185,8 +185,11 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
                 Polyline::new(PlotRole::Averaged, case.averaged.iter().copied()).label("averaging"),
             )
             .with(
-                Polyline::new(PlotRole::Exact, case.steady.iter().map(|&(v, mean, _)| (v, mean)))
-                    .label("steady responses"),
+                Polyline::new(
+                    PlotRole::Exact,
+                    case.steady.iter().map(|&(v, mean, _)| PlotPoint::new(v, mean)),
+                )
+                .label("steady responses"),
             ),
         );
     }
@@ -223,8 +226,8 @@ fn grid() -> Vec<f64> {
 }
 
 /// μ̄(v) of (4.28) with φ′ of (4.23).
-fn averaged(name: &str, belt: &Belt) -> Result<Vec<(f64, f64)>, Failure> {
-    grid().into_iter().map(|v| Ok((v, averaged_at(name, belt, v)?))).collect()
+fn averaged(name: &str, belt: &Belt) -> Result<Vec<PlotPoint>, Failure> {
+    grid().into_iter().map(|v| Ok(PlotPoint::new(v, averaged_at(name, belt, v)?))).collect()
 }
 
 /// The same at one slip velocity.
@@ -259,8 +262,8 @@ fn medians(windows: &[WindowMean]) -> Vec<(f64, f64, usize)> {
 }
 
 /// Linear interpolation between neighbouring points of a curve with ascending x.
-pub(super) fn interpolated(curve: &[(f64, f64)], x: f64) -> f64 {
-    let after = curve.partition_point(|point| point.0 < x).clamp(1, curve.len() - 1);
+pub(super) fn interpolated(curve: &[PlotPoint], x: f64) -> f64 {
+    let after = curve.partition_point(|point| point.x < x).clamp(1, curve.len() - 1);
     let (before, after) = (curve[after - 1], curve[after]);
-    before.1 + (after.1 - before.1) * (x - before.0) / (after.0 - before.0)
+    before.y + (after.y - before.y) * (x - before.x) / (after.x - before.x)
 }

@@ -19,7 +19,8 @@ use quell::complaint::Failure;
 use quell::map::{FinishedMap, boundaries, run};
 use quell::picture::{self, MapAxis, MapKind};
 use quell::plot::{
-    Figure, Legend, LineStyle, Panel, PlotAxis, PlotRole, Polyline, SharedLegend, Sharing, Size,
+    Figure, Legend, LineStyle, Panel, PlotAxis, PlotPoint, PlotRole, Polyline, SharedLegend,
+    Sharing, Size,
 };
 use quell::running::Running;
 use quell::status::Status;
@@ -223,6 +224,7 @@ fn boundary(done: &FinishedMap, panel: &str, table: &mut DataTable) -> Vec<Polyl
         }
         // The line ends at the edge of the panel.
         let points = boundary.points.into_iter().filter(|point| point.1 <= 1.2 * furthest);
+        let points = points.map(|(x, y)| PlotPoint::new(x, y));
         lines.push(Polyline::new(role, points.collect::<Vec<_>>()).style(style).label(label));
     }
     lines

@@ -16,7 +16,8 @@ use super::start::start;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Figure, Legend, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
+    Figure, Legend, Panel, PlotAxis, PlotPoint, PlotRole, Polyline, ReferenceLine, SharedLegend,
+    Sharing, Size,
 };
 use quell::study::BeltStudy;
 
@@ -137,7 +138,10 @@ fn histories_of(
     let title = format!("({name}) ${symbol}$ = {}{residual_vibration}", case.amplitude);
     let pair = |value: fn(&Sample) -> f64| {
         let curve = |role, samples: &[Sample]| {
-            Polyline::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())
+            Polyline::new(
+                role,
+                samples.iter().map(|s| PlotPoint::new(s.time, value(s))).collect::<Vec<_>>(),
+            )
         };
         [
             curve(PlotRole::Dithered, samples).width(1.0).label("with dither"),
@@ -163,8 +167,9 @@ fn spectrum_panel(case: &ResponseColumn, top: f64) -> Panel {
     let SteadyResponse { dithered, undithered, .. } = &case.response;
     let curve = |role, spectrum: &Spectrum| {
         let amplitudes = spectrum.amplitudes().iter().map(|amplitude| amplitude.max(0.1 * FLOOR));
-        let points: Vec<(f64, f64)> =
-            spectrum.frequencies().zip(amplitudes).take_while(|(ω, _)| *ω <= top).collect();
+        let points: Vec<PlotPoint> = PlotPoint::zip(spectrum.frequencies(), amplitudes)
+            .take_while(|point| point.x <= top)
+            .collect();
         Polyline::new(role, points)
     };
     Panel::new(

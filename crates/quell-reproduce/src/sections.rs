@@ -20,8 +20,8 @@ use super::start::start;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Figure, Layer, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
-    SharedLegend, Sharing, Size,
+    Figure, Layer, Legend, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline,
+    ReferenceLine, SharedLegend, Sharing, Size,
 };
 
 /// Length of the time axis in decay times 1/ζ of the free oscillator, and its bounds.
@@ -126,7 +126,7 @@ fn common_range(panels: &mut [Panel], columns: usize) {
         .filter(|(index, _)| is_section(*index))
         .flat_map(|(_, panel)| &panel.layers)
         .filter_map(|layer| if let Layer::Points(points) = layer { Some(points) } else { None })
-        .flat_map(|points| points.points.iter().map(|point| point.0));
+        .flat_map(|points| points.points.iter().map(|point| point.x));
     let range = states.fold(None, |range: Option<(f64, f64)>, x| {
         Some(range.map_or((x, x), |(low, high)| (low.min(x), high.max(x))))
     });
@@ -203,8 +203,8 @@ fn drawn(
     let until = samples.last().map_or(1.0, |sample| sample.time);
     let time = || PlotAxis::new("time").symbol("τ").between(0.0, until);
     let curve = |value: fn(&Sample) -> f64| {
-        Polyline::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())
-            .width(0.6)
+        let points = samples.iter().map(|s| PlotPoint::new(s.time, value(s)));
+        Polyline::new(role, points.collect::<Vec<_>>()).width(0.6)
     };
     let displacement = Panel::new(time(), PlotAxis::new("displacement").symbol("x"))
         .title(title)
@@ -214,7 +214,8 @@ fn drawn(
         .with(ReferenceLine::horizontal(belt_velocity));
     let settled = case.attractor.as_ref().map_or(&[][..], |attractor| attractor.section.as_slice());
     let step = settled.len().div_ceil(SETTLED).max(1);
-    let states: Vec<(f64, f64)> = settled.iter().step_by(step).copied().collect();
+    let point = |&(x, v): &(f64, f64)| PlotPoint::new(x, v);
+    let states: Vec<PlotPoint> = settled.iter().step_by(step).map(point).collect();
     let (marker, size) = if states.len() == 1 { (Marker::Disc, 6.0) } else { (Marker::Disc, 2.6) };
     let label = if case.quiet { "settles" } else { "vibrates" };
     let section = Panel::new(
@@ -222,7 +223,7 @@ fn drawn(
         PlotAxis::new("velocity").symbol("x′"),
     )
     .with(
-        Points::new(PlotRole::Guide, transient.iter().copied())
+        Points::new(PlotRole::Guide, transient.iter().map(point))
             .size(2.0)
             .label("section from rest"),
     )

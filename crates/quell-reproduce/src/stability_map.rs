@@ -20,8 +20,8 @@ use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Figure, Legend, LineStyle, Note, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
-    Region, SharedLegend, Sharing, Size,
+    Figure, Legend, LineStyle, Note, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline,
+    ReferenceLine, Region, SharedLegend, Sharing, Size,
 };
 use quell::study::BeltStudy;
 
@@ -31,7 +31,7 @@ const POINTS: u32 = 240;
 const FEWER_POINTS: u32 = 48;
 
 /// A curve of (α, v₀).
-type EdgeCurve = Vec<(f64, f64)>;
+type EdgeCurve = Vec<PlotPoint>;
 
 /// The plane of one panel.
 struct StabilityPlane<'a> {
@@ -40,7 +40,7 @@ struct StabilityPlane<'a> {
     waveform: Waveform,
     direction: Direction,
     /// Largest α and v₀ shown.
-    reach: (f64, f64),
+    reach: PlotPoint,
 }
 
 /// An unstable region: its edges from α = 0, and its tip.
@@ -49,7 +49,7 @@ struct Unstable {
     lower: EdgeCurve,
     upper: EdgeCurve,
     /// (α^L, α^L G_max), if it exists.
-    tip: Option<(f64, f64)>,
+    tip: Option<PlotPoint>,
 }
 
 /// Figures 2.6 and 2.7: one waveform, one damping ratio.
@@ -205,7 +205,7 @@ fn panel(
         belt,
         waveform,
         direction: dither.direction,
-        reach: (alpha, velocity),
+        reach: PlotPoint::new(alpha, velocity),
     };
     let damping = damping_ratios(source, study)?;
     let symbol = if normal { "α_N" } else { "α_T" };
@@ -246,18 +246,18 @@ impl StabilityPlane<'_> {
     }
 
     /// α of the axis for the tangential α at v₀.
-    fn along(&self, alpha: f64, v: f64) -> (f64, f64) {
+    fn along(&self, alpha: f64, v: f64) -> PlotPoint {
         match self.direction {
-            Direction::Tangential => (alpha, v),
-            Direction::Normal => (alpha / self.law().coefficient(v), v),
+            Direction::Tangential => PlotPoint::new(alpha, v),
+            Direction::Normal => PlotPoint::new(alpha / self.law().coefficient(v), v),
         }
     }
 
     /// Largest tangential α that the axis shows.
     fn largest(&self) -> f64 {
         match self.direction {
-            Direction::Tangential => self.reach.0,
-            Direction::Normal => self.reach.0 * self.law().static_coefficient(),
+            Direction::Tangential => self.reach.x,
+            Direction::Normal => self.reach.x * self.law().static_coefficient(),
         }
     }
 
@@ -278,7 +278,7 @@ impl StabilityPlane<'_> {
                 Ok(band) => {
                     region.lower.push(self.along(alpha, band.lower));
                     // Without an upper edge the band extends beyond the plane.
-                    region.upper.push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+                    region.upper.push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.y)));
                 }
                 Err(NoBand::Stable) => {}
                 Err(why) => return Err(failed("figure", &why)),
@@ -304,7 +304,10 @@ impl StabilityPlane<'_> {
             let region = self.unstable(damping_ratio)?;
             let shorter = (ratio * ratio - 1.0) / (ratio * ratio);
             [region.lower, region.upper].map(|curve| {
-                curve.into_iter().map(|(alpha, v)| (alpha * shorter, v)).collect::<EdgeCurve>()
+                curve
+                    .into_iter()
+                    .map(|PlotPoint { x: alpha, y: v }| PlotPoint::new(alpha * shorter, v))
+                    .collect::<EdgeCurve>()
             })
         } else {
             self.oscillator_edges(damping_ratio, ratio)?
@@ -339,7 +342,7 @@ impl StabilityPlane<'_> {
                 unstable_bands(&belt, options).map_err(|error| failed(self.source.name, &error))?;
             let Some(band) = bands.last() else { break };
             edges[0].push(self.along(alpha, band.lower));
-            edges[1].push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.1)));
+            edges[1].push(self.along(alpha, band.upper.unwrap_or(10.0 * self.reach.y)));
         }
         if let Some(alpha) = tip.filter(|tip| *tip < self.largest()) {
             let tip = self.along(alpha, alpha * wave.peak());
@@ -395,14 +398,14 @@ impl StabilityPlane<'_> {
 
     /// Marks α^L where it is inside the plane.
     fn tips(&self, mut panel: Panel, regions: &[Unstable], lone: bool) -> Panel {
-        let shown = |tip: &(f64, f64)| tip.0 <= self.reach.0 && tip.1 <= self.reach.1;
+        let shown = |tip: &PlotPoint| tip.x <= self.reach.x && tip.y <= self.reach.y;
         let tips: EdgeCurve =
             regions.iter().filter_map(|region| region.tip).filter(shown).collect();
         if tips.is_empty() {
             return panel;
         }
         if lone {
-            let alpha = tips[0].0;
+            let alpha = tips[0].x;
             panel = panel.with(ReferenceLine::vertical(alpha).label(format!("$α^L$ = {alpha:.4}")));
         }
         panel.with(Points::new(PlotRole::Boundary, tips).label("$α^L$"))
@@ -413,13 +416,13 @@ impl StabilityPlane<'_> {
         let stribeck = self.law().kind() == LawKind::Stribeck;
         // In the wide part of the region of lightest damping.
         if let Some(region) = regions.last().filter(|region| !region.lower.is_empty()) {
-            let v = if stribeck { 0.75 } else { 0.85 } * region.upper[0].1;
-            let edge = region.lower.iter().take_while(|point| point.1 < v).last();
-            panel = panel.with(Note::new(0.5 * edge.map_or(0.0, |point| point.0), v, "unstable"));
+            let v = if stribeck { 0.75 } else { 0.85 } * region.upper[0].y;
+            let edge = region.lower.iter().take_while(|point| point.y < v).last();
+            panel = panel.with(Note::new(0.5 * edge.map_or(0.0, |point| point.x), v, "unstable"));
         }
         let above = if stribeck { 0.55 } else { 0.3 };
         for (alpha, v) in [(0.65, 0.1), (above, 0.93)] {
-            panel = panel.with(Note::new(alpha * self.reach.0, v * self.reach.1, "stable"));
+            panel = panel.with(Note::new(alpha * self.reach.x, v * self.reach.y, "stable"));
         }
         if self.direction == Direction::Normal {
             let limit = self.belt.normal_load() / self.belt.dithers()[0].frequency_ratio;
@@ -429,7 +432,7 @@ impl StabilityPlane<'_> {
     }
 
     fn record(&self, table: &mut DataTable, damping_ratio: f64, curve: &str, points: &EdgeCurve) {
-        for &(alpha, v) in points {
+        for &PlotPoint { x: alpha, y: v } in points {
             table.row([
                 self.waveform.name().into(),
                 damping_ratio.into(),

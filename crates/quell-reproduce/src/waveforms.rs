@@ -9,7 +9,9 @@ use super::product::{DataTable, Product};
 use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
-use quell::plot::{Figure, Legend, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, Sharing};
+use quell::plot::{
+    Figure, Legend, Panel, PlotAxis, PlotPoint, PlotRole, Polyline, ReferenceLine, Sharing,
+};
 
 const CYCLES: u32 = 2;
 const POINTS_PER_CYCLE: u32 = 240;
@@ -50,7 +52,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
                 .with(ReferenceLine::horizontal(peak).label(label))
                 .with(Polyline::new(
                     PlotRole::Averaged,
-                    cycles().map(|c| (c, waveform.integral(TAU * c))),
+                    cycles().map(|c| PlotPoint::new(c, waveform.integral(TAU * c))),
                 ))
                 .legend(Legend::None),
         );
@@ -92,13 +94,16 @@ fn cycles() -> impl Iterator<Item = f64> {
 }
 
 /// g, with vertical segments where it jumps.
-fn force(waveform: &Waveform) -> Vec<Vec<(f64, f64)>> {
+fn force(waveform: &Waveform) -> Vec<Vec<PlotPoint>> {
     if *waveform == Waveform::Square {
         let corners = (0..2 * CYCLES).flat_map(|half| {
             let level = if half % 2 == 0 { 1.0 } else { -1.0 };
-            [(0.5 * f64::from(half), level), (0.5 * f64::from(half + 1), level)]
+            [
+                PlotPoint::new(0.5 * f64::from(half), level),
+                PlotPoint::new(0.5 * f64::from(half + 1), level),
+            ]
         });
-        return vec![std::iter::once((0.0, 0.0)).chain(corners).collect()];
+        return vec![std::iter::once(PlotPoint::new(0.0, 0.0)).chain(corners).collect()];
     }
-    vec![cycles().map(|c| (c, waveform.value(TAU * c))).collect()]
+    vec![cycles().map(|c| PlotPoint::new(c, waveform.value(TAU * c))).collect()]
 }

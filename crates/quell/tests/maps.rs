@@ -1,7 +1,7 @@
 //! Pictures of maps as users see them: isolines, gaps, outcomes, curves, size.
 
 use quell::picture::{MapAxis, MapKind, MappedQuantity, map};
-use quell::plot::{PlotAxis, PlotError, PlotRole, Polyline, Size, Spread};
+use quell::plot::{PlotAxis, PlotError, PlotPoint, PlotRole, Polyline, Size, Spread};
 
 fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| from + (to - from) * k as f64 / (count - 1) as f64).collect()
@@ -136,7 +136,8 @@ fn the_first_of_two_axes_is_horizontal() {
 fn curves_of_a_theory_are_drawn_over_the_map_and_do_not_widen_it() {
     let mut given = plane(40, stable_or_not(), |_, _| Ok(0.0));
     let bare = svg(&given);
-    let boundary = Polyline::new(PlotRole::Averaged, [(0.0, 0.0), (100.0, 5.0)]);
+    let boundary =
+        Polyline::new(PlotRole::Averaged, [PlotPoint::new(0.0, 0.0), PlotPoint::new(100.0, 5.0)]);
     given.over = vec![boundary.label("averaged: $D$ = $α^*R$").into()];
     let with = svg(&given);
     assert!(with.contains("averaged: ") && !bare.contains("averaged: "));

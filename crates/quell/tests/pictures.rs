@@ -8,19 +8,19 @@ use quell::output::Output;
 use quell::picture::{EXTENSIONS, write};
 use quell::plot::{
     Colouring, Contours, Field, Figure, Fill, Heatmap, Legend, LineStyle, Marker, Note, Palette,
-    Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region, Shading, SharedLegend,
-    Sharing, Size, Spread, Tint,
+    Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine, Region, Shading,
+    SharedLegend, Sharing, Size, Spread, Tint,
 };
 
 fn axes() -> Panel {
     Panel::new(PlotAxis::new("time").symbol("τ"), PlotAxis::new("displacement").symbol("x"))
 }
 
-fn wave(count: u32) -> Vec<(f64, f64)> {
+fn wave(count: u32) -> Vec<PlotPoint> {
     (0..count)
         .map(|step| {
             let time = 100.0 * f64::from(step) / f64::from(count);
-            (time, time.sin() + 0.1 * (37.0 * time).sin())
+            PlotPoint::new(time, time.sin() + 0.1 * (37.0 * time).sin())
         })
         .collect()
 }
@@ -144,7 +144,9 @@ fn roles_and_styles_decide_the_dashes() {
 #[test]
 fn a_dashed_line_is_dashed_in_pixels_too() {
     let flat = |style| {
-        let line = Polyline::new(PlotRole::Dithered, [(0.0, 0.5), (1.0, 0.5)]).style(style);
+        let line =
+            Polyline::new(PlotRole::Dithered, [PlotPoint::new(0.0, 0.5), PlotPoint::new(1.0, 0.5)])
+                .style(style);
         Figure::single(axes().with(line)).to_png().expect("a PNG")
     };
     assert_ne!(flat(LineStyle::Dashed), flat(LineStyle::Solid));
@@ -152,14 +154,16 @@ fn a_dashed_line_is_dashed_in_pixels_too() {
 
 #[test]
 fn a_break_is_not_bridged() {
-    let jump = || (0..100).map(|step| (f64::from(step), if step < 50 { 0.0 } else { 1.0 }));
+    let jump =
+        || (0..100).map(|step| PlotPoint::new(f64::from(step), if step < 50 { 0.0 } else { 1.0 }));
     let count = |line: Polyline| {
         let svg = Figure::single(axes().with(line)).to_svg();
         strokes(&svg, BLUE)[0].matches('M').count()
     };
     assert_eq!(count(Polyline::new(PlotRole::Dithered, jump())), 1);
     assert_eq!(count(Polyline::pieces(PlotRole::Dithered, [wave(50), wave(50), wave(50)])), 3);
-    let hole = jump().map(|(x, y)| (x, if x == 70.0 { f64::INFINITY } else { y }));
+    let hole = jump()
+        .map(|PlotPoint { x, y }| PlotPoint::new(x, if x == 70.0 { f64::INFINITY } else { y }));
     assert_eq!(count(Polyline::new(PlotRole::Dithered, hole)), 2);
 }
 
@@ -183,23 +187,23 @@ fn a_shared_legend_names_each_curve_once() {
 #[test]
 fn a_long_series_stays_small_and_keeps_its_spike() {
     let mut series = wave(100_000);
-    series[43_210].1 = 5.0;
+    series[43_210].y = 5.0;
     let svg = Figure::single(axes().with(Polyline::new(PlotRole::Dithered, series))).to_svg();
     assert!(svg.len() < 200_000, "{}", svg.len());
     // The spike is by far the highest point: its end of the axis is drawn close to the frame's top.
     let path = strokes(&svg, BLUE)[0];
-    let steps: Vec<(f64, f64)> = path
+    let steps: Vec<PlotPoint> = path
         .trim_start_matches('M')
         .split('l')
         .filter_map(|step| {
             let split = step.rfind(['-', ' ']).filter(|at| *at > 0)?;
-            Some((step[..split].parse().ok()?, step[split..].trim().parse().ok()?))
+            Some(PlotPoint::new(step[..split].parse().ok()?, step[split..].trim().parse().ok()?))
         })
         .collect();
     let mut height = 0.0;
     let heights: Vec<f64> = steps
         .iter()
-        .map(|(_, down)| {
+        .map(|PlotPoint { y: down, .. }| {
             height += down;
             height
         })
@@ -213,7 +217,7 @@ fn a_long_series_stays_small_and_keeps_its_spike() {
 fn a_long_orbit_stays_below_a_megabyte() {
     let orbit = (0..100_000).map(|step| {
         let time = 0.05 * f64::from(step);
-        (
+        PlotPoint::new(
             (1.0 + 0.1 * (0.01 * time).sin()) * time.cos(),
             (1.0 + 0.1 * (0.01 * time).cos()) * time.sin(),
         )
@@ -236,12 +240,21 @@ fn hostile_labels_stay_text() {
 fn odd_figures_are_pictures_too() {
     let empty = Figure::grid(3, []);
     let nothing = Figure::single(Panel::default());
-    let single = axes().with(Polyline::new(PlotRole::Dithered, [(2.0, 3.0)]));
+    let single = axes().with(Polyline::new(PlotRole::Dithered, [PlotPoint::new(2.0, 3.0)]));
     let negative = Panel::new(PlotAxis::new("x").log(), PlotAxis::new("y").log())
-        .with(Polyline::new(PlotRole::Dithered, [(-1.0, -1.0), (0.0, 0.0)]))
+        .with(Polyline::new(
+            PlotRole::Dithered,
+            [PlotPoint::new(-1.0, -1.0), PlotPoint::new(0.0, 0.0)],
+        ))
         .with(Region::across_y(PlotRole::Stable, f64::NEG_INFINITY, f64::INFINITY));
-    let huge = axes().with(Polyline::new(PlotRole::Dithered, [(0.0, -1e308), (1.0, 1e308)]));
-    let far = axes().with(Polyline::new(PlotRole::Dithered, [(0.0, 1e300), (1.0, 1.0)]).label("a"));
+    let huge = axes().with(Polyline::new(
+        PlotRole::Dithered,
+        [PlotPoint::new(0.0, -1e308), PlotPoint::new(1.0, 1e308)],
+    ));
+    let far = axes().with(
+        Polyline::new(PlotRole::Dithered, [PlotPoint::new(0.0, 1e300), PlotPoint::new(1.0, 1.0)])
+            .label("a"),
+    );
     let tiny = Figure::single(
         axes().with(Polyline::new(PlotRole::Dithered, wave(10)).label("x".repeat(300))),
     )
@@ -268,7 +281,12 @@ fn points_out_of_the_frame_are_not_drawn() {
         Panel::new(PlotAxis::new("x").between(0.0, 1.0), PlotAxis::new("y").between(0.0, 1.0))
             .with(Points::new(
                 PlotRole::Undithered,
-                [(0.5, 0.5), (2.0, 0.5), (0.5, -3.0), (1.0, 1.0)],
+                [
+                    PlotPoint::new(0.5, 0.5),
+                    PlotPoint::new(2.0, 0.5),
+                    PlotPoint::new(0.5, -3.0),
+                    PlotPoint::new(1.0, 1.0),
+                ],
             ));
     let svg = Figure::single(panel).to_svg();
     assert_eq!(strokes(&svg, GREY)[0].matches("h0").count(), 2);
@@ -367,17 +385,17 @@ fn isolines_follow_the_field_also_on_a_log_axis() {
         .with(Contours::new(field, [10_f64.ln()]).plain());
     let svg = Figure::single(panel).size(Size::Frame(200.0, 100.0)).to_svg();
     let path = strokes(&svg, "#000000")[0];
-    let steps: Vec<(f64, f64)> = path
+    let steps: Vec<PlotPoint> = path
         .trim_start_matches('M')
         .split('l')
         .skip(1)
         .filter_map(|step| {
             let split = step.rfind(['-', ' ']).filter(|at| *at > 0)?;
-            Some((step[..split].parse().ok()?, step[split..].trim().parse().ok()?))
+            Some(PlotPoint::new(step[..split].parse().ok()?, step[split..].trim().parse().ok()?))
         })
         .collect();
     assert!(!steps.is_empty());
-    for (right, down) in steps {
+    for PlotPoint { x: right, y: down } in steps {
         assert!((right.abs() - 2.0 * down.abs()).abs() < 0.05 && right * down > 0.0, "{path}");
     }
 }

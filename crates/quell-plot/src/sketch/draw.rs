@@ -4,6 +4,7 @@ use super::labels::{PlacedSketch, place};
 use super::part::{SketchKey, SketchPart};
 use super::sheet::{MARGIN, Sketch, TEXT};
 use crate::canvas::{Canvas, Stroke, TextStyle, path};
+use crate::geometry::PlotPoint;
 use crate::palette::{Colour, FAINT, LineStyle};
 use crate::svg::{Escaped, TextAnchor};
 use crate::typeset::{RichText, wrap};
@@ -56,7 +57,11 @@ pub(super) fn svg(sketch: &Sketch) -> String {
     canvas.begin_group("class=\"key\"");
     for (number, (left, line)) in lines.iter().enumerate() {
         let baseline = placed.bottom + MARGIN + PITCH * number as f64 + 0.9 * f64::from(TEXT);
-        canvas.text(line, (SIDE + left, baseline), TextStyle::new(TEXT, TextAnchor::Start));
+        canvas.text(
+            line,
+            PlotPoint::new(SIDE + left, baseline),
+            TextStyle::new(TEXT, TextAnchor::Start),
+        );
     }
     canvas.end_group();
     canvas.end_group();
@@ -121,11 +126,15 @@ fn unbroken(item: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::FrameSize;
     use crate::sketch::part::LabelSide;
     use crate::sketch::shape::SketchShape;
 
     fn sketch(width_mm: f64) -> Sketch {
-        let block = SketchShape::Block { corner: (0.0, 0.0), size: (60.0, 30.0) };
+        let block = SketchShape::Block {
+            corner: PlotPoint::new(0.0, 0.0),
+            size: FrameSize::new(60.0, 30.0),
+        };
         Sketch {
             title: "<one>".to_owned(),
             description: "A mass".to_owned(),

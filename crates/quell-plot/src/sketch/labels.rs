@@ -5,6 +5,7 @@ use super::part::{LabelSide, SketchPart};
 use super::shape::SketchShape;
 use super::sheet::{MARGIN, Sketch, TEXT};
 use crate::canvas::Rectangle;
+use crate::geometry::PlotPoint;
 use crate::obstacles::Obstacles;
 use crate::typeset::RichText;
 
@@ -17,7 +18,7 @@ const HALF: f64 = 0.52;
 pub(super) struct SketchText {
     pub(super) text: RichText,
     /// Left end of the baseline.
-    pub(super) at: (f64, f64),
+    pub(super) at: PlotPoint,
 }
 
 /// The parts of a sketch in their final positions, and its labels, part by part.
@@ -33,10 +34,13 @@ pub(super) struct PlacedSketch {
 pub(super) fn place(sketch: &Sketch) -> PlacedSketch {
     let room = sketch.room();
     let areas = sketch.parts.iter().flat_map(|part| &part.shapes).map(SketchShape::area);
-    let ends: Vec<(f64, f64)> =
-        areas.flat_map(|area| [(area.left, area.top), (area.right, area.bottom)]).collect();
+    let ends: Vec<PlotPoint> = areas
+        .flat_map(|area| {
+            [PlotPoint::new(area.left, area.top), PlotPoint::new(area.right, area.bottom)]
+        })
+        .collect();
     let whole = bounds(ends.iter());
-    let shift = (0.5 * (room - whole.left - whole.right), 0.0);
+    let shift = PlotPoint::new(0.5 * (room - whole.left - whole.right), 0.0);
     let parts: Vec<SketchPart> = sketch
         .parts
         .iter()
@@ -49,17 +53,20 @@ pub(super) fn place(sketch: &Sketch) -> PlacedSketch {
     let mut labels = LabelPlacer::new(&parts, room);
     let placed: Vec<Vec<SketchText>> = parts.iter().map(|part| labels.of(part)).collect();
     let LabelPlacer { mut collisions, texts, .. } = labels;
-    if whole.left + shift.0 < 0.0 {
+    if whole.left + shift.x < 0.0 {
         collisions.push(format!("the parts are wider than the sheet of {room:.0} pixels"));
     }
     let top = texts.iter().map(|area| area.top).fold(whole.top, f64::min);
     let bottom = texts.iter().map(|area| area.bottom).fold(whole.bottom, f64::max);
     let down = MARGIN - top;
     let moved = |part: SketchPart| SketchPart {
-        shapes: part.shapes.iter().map(|shape| shape.moved((0.0, down))).collect(),
+        shapes: part.shapes.iter().map(|shape| shape.moved(PlotPoint::new(0.0, down))).collect(),
         ..part
     };
-    let lowered = |label: SketchText| SketchText { at: (label.at.0, label.at.1 + down), ..label };
+    let lowered = |label: SketchText| SketchText {
+        at: PlotPoint::new(label.at.x, label.at.y + down),
+        ..label
+    };
     PlacedSketch {
         parts: parts.into_iter().map(moved).collect(),
         labels: placed.into_iter().map(|part| part.into_iter().map(lowered).collect()).collect(),
@@ -107,7 +114,7 @@ impl LabelPlacer {
                 self.texts.push(spot);
                 self.obstacles.add(spot);
                 let middle = 0.5 * (spot.top + spot.bottom);
-                SketchText { text, at: (spot.left, middle + 0.35 * f64::from(TEXT)) }
+                SketchText { text, at: PlotPoint::new(spot.left, middle + 0.35 * f64::from(TEXT)) }
             })
             .collect()
     }
@@ -125,7 +132,7 @@ impl LabelPlacer {
         let pitch = 1.25 * size;
         let first = 0.5 * (area.top + area.bottom) - 0.5 * pitch * (lines - 1) as f64;
         let level = first + pitch * line as f64;
-        let spot = text_area((middle - 0.5 * width, level), width);
+        let spot = text_area(PlotPoint::new(middle - 0.5 * width, level), width);
         if spot.left < area.left || spot.right > area.right {
             self.collisions.push(format!("“{text}” is wider than its box"));
         }
@@ -149,11 +156,15 @@ impl LabelPlacer {
         let half = HALF * f64::from(TEXT);
         let (across, down) = (0.5 * (area.left + area.right), 0.5 * (area.top + area.bottom));
         let at = |side: LabelSide, away: f64, aside: f64| match side {
-            LabelSide::Above => (across - 0.5 * width + aside, area.top - GAP - half - away),
-            LabelSide::Below => (across - 0.5 * width + aside, area.bottom + GAP + half + away),
-            LabelSide::Left => (area.left - GAP - width - away, down + aside),
-            LabelSide::Right => (area.right + GAP + away, down + aside),
-            LabelSide::Inside => (across - 0.5 * width, down),
+            LabelSide::Above => {
+                PlotPoint::new(across - 0.5 * width + aside, area.top - GAP - half - away)
+            }
+            LabelSide::Below => {
+                PlotPoint::new(across - 0.5 * width + aside, area.bottom + GAP + half + away)
+            }
+            LabelSide::Left => PlotPoint::new(area.left - GAP - width - away, down + aside),
+            LabelSide::Right => PlotPoint::new(area.right + GAP + away, down + aside),
+            LabelSide::Inside => PlotPoint::new(across - 0.5 * width, down),
         };
         let mut best: Option<(usize, Rectangle)> = None;
         for (away, aside) in OFFSETS {
@@ -169,7 +180,7 @@ impl LabelPlacer {
                 break;
             }
         }
-        let (cost, spot) = best.unwrap_or((0, text_area((across, down), width)));
+        let (cost, spot) = best.unwrap_or((0, text_area(PlotPoint::new(across, down), width)));
         if cost > 0 {
             self.collisions.push(format!("“{text}” covers something or leaves the sheet"));
         }
@@ -192,7 +203,7 @@ const OFFSETS: &[(f64, f64)] = &[
 ];
 
 /// The rectangle of a text whose left end and middle height are given.
-fn text_area((left, middle): (f64, f64), width: f64) -> Rectangle {
+fn text_area(PlotPoint { x: left, y: middle }: PlotPoint, width: f64) -> Rectangle {
     let half = HALF * f64::from(TEXT);
     Rectangle { left, top: middle - half, right: left + width, bottom: middle + half }
 }
@@ -206,18 +217,23 @@ fn overlap(one: &Rectangle, other: &Rectangle) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use crate::geometry::{FrameSize, PlotPoint};
     use crate::sketch::part::{LabelSide, SketchPart};
     use crate::sketch::shape::SketchShape;
     use crate::sketch::sheet::Sketch;
 
     fn spot(x: f64, text: &str) -> SketchPart {
         let sides = [LabelSide::Above, LabelSide::Below];
-        SketchPart::new("note", text, SketchShape::Spot { at: (x, 50.0) }).label(text, &sides)
+        SketchPart::new("note", text, SketchShape::Spot { at: PlotPoint::new(x, 50.0) })
+            .label(text, &sides)
     }
 
     #[test]
     fn labels_avoid_each_other_and_lines() {
-        let wall = SketchShape::Ground { from: (0.0, 42.0), to: (200.0, 42.0) };
+        let wall = SketchShape::Ground {
+            from: PlotPoint::new(0.0, 42.0),
+            to: PlotPoint::new(200.0, 42.0),
+        };
         let sketch = Sketch::new(85.0)
             .with(SketchPart::new("ground", "wall", wall))
             .with(spot(90.0, "first"))
@@ -232,14 +248,18 @@ mod tests {
             sketch = sketch.with(spot(100.0, &format!("label {number}")));
         }
         assert!(!sketch.collisions().is_empty());
-        let block = SketchShape::Block { corner: (0.0, 0.0), size: (20.0, 20.0) };
+        let block = SketchShape::Block {
+            corner: PlotPoint::new(0.0, 0.0),
+            size: FrameSize::new(20.0, 20.0),
+        };
         let narrow =
             SketchPart::new("mass", "m", block).label("far too wide", &[LabelSide::Inside]);
         assert_eq!(
             Sketch::new(85.0).with(narrow).collisions(),
             ["“far too wide” is wider than its box"]
         );
-        let line = SketchShape::Spring { from: (0.0, 0.0), to: (900.0, 0.0) };
+        let line =
+            SketchShape::Spring { from: PlotPoint::new(0.0, 0.0), to: PlotPoint::new(900.0, 0.0) };
         assert_eq!(
             Sketch::new(85.0).with(SketchPart::new("spring", "k", line)).collisions().len(),
             1

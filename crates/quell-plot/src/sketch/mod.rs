@@ -5,9 +5,9 @@
 //! decides what is drawn where.
 //!
 //! ```
-//! use quell_plot::{LabelSide, Sketch, SketchKey, SketchPart, SketchShape};
+//! use quell_plot::{PlotPoint, LabelSide, Sketch, SketchKey, SketchPart, SketchShape};
 //!
-//! let spring = SketchShape::Spring { from: (20.0, 40.0), to: (80.0, 40.0) };
+//! let spring = SketchShape::Spring { from: PlotPoint::new(20.0, 40.0), to: PlotPoint::new(80.0, 40.0) };
 //! let sketch = Sketch::new(85.0)
 //!     .with(SketchPart::new("spring", "spring of the wall", spring).label("$k$", &[LabelSide::Above]))
 //!     .with_key(SketchKey::new("spring", ["$k$ = 4 N/m"]));

@@ -1,12 +1,12 @@
 //! Outlines of the shapes of mechanical drawings: coils, dashpots, hatching, belts, arrows, arcs and waves.
 
+use crate::geometry::{PlotPoint, PlotRange};
 use std::f64::consts::{PI, TAU};
 
 use crate::canvas::Rectangle;
 use crate::palette::LineStyle;
 
 /// A position in pixels of 1/96 inch from the upper left.
-pub(super) type Spot = (f64, f64);
 
 /// Half the width of a coil spring.
 const COIL: f64 = 5.0;
@@ -30,7 +30,7 @@ pub enum WaveGlyph {
 
 /// A closed area and its fill.
 pub(super) struct FilledArea {
-    pub(super) outline: Vec<Spot>,
+    pub(super) outline: Vec<PlotPoint>,
     /// Whether it has the ink of the part; else it is a pale surface.
     pub(super) inked: bool,
 }
@@ -39,18 +39,18 @@ pub(super) struct FilledArea {
 #[derive(Default)]
 pub(super) struct ShapeStrokes {
     /// Solid lines of the usual width.
-    pub(super) lines: Vec<Vec<Spot>>,
+    pub(super) lines: Vec<Vec<PlotPoint>>,
     /// Thin lines, such as hatching.
-    pub(super) thin: Vec<Vec<Spot>>,
+    pub(super) thin: Vec<Vec<PlotPoint>>,
     pub(super) fills: Vec<FilledArea>,
     /// Closed lines with a hole: the outlines of a ring.
     pub(super) style: Option<LineStyle>,
 }
 
 /// The rectangle around some points; empty at the origin without points.
-pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a Spot>) -> Rectangle {
+pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a PlotPoint>) -> Rectangle {
     let mut area: Option<Rectangle> = None;
-    for &(x, y) in points {
+    for &PlotPoint { x, y } in points {
         let known = area.get_or_insert(Rectangle { left: x, top: y, right: x, bottom: y });
         known.left = known.left.min(x);
         known.top = known.top.min(y);
@@ -61,25 +61,27 @@ pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a Spot>) -> Rectangle {
 }
 
 /// A closed outline.
-pub(super) fn corners(area: Rectangle) -> Vec<Spot> {
+pub(super) fn corners(area: Rectangle) -> Vec<PlotPoint> {
     let Rectangle { left, top, right, bottom } = area;
-    vec![(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]
+    vec![
+        PlotPoint::new(left, top),
+        PlotPoint::new(right, top),
+        PlotPoint::new(right, bottom),
+        PlotPoint::new(left, bottom),
+        PlotPoint::new(left, top),
+    ]
 }
 
 /// The point at a distance along and across the line between two points (to the right of it, y downwards).
-pub(super) fn along(from: Spot, to: Spot, distance: f64, across: f64) -> Spot {
-    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+pub(super) fn along(from: PlotPoint, to: PlotPoint, distance: f64, across: f64) -> PlotPoint {
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
     let length = dx.hypot(dy).max(f64::MIN_POSITIVE);
     let (ux, uy) = (dx / length, dy / length);
-    (from.0 + distance * ux - across * uy, from.1 + distance * uy + across * ux)
+    PlotPoint::new(from.x + distance * ux - across * uy, from.y + distance * uy + across * ux)
 }
 
-pub(super) fn length(from: Spot, to: Spot) -> f64 {
-    (to.0 - from.0).hypot(to.1 - from.1)
-}
-
-pub(super) fn zigzag(from: Spot, to: Spot) -> Vec<Spot> {
-    let whole = length(from, to);
+pub(super) fn zigzag(from: PlotPoint, to: PlotPoint) -> Vec<PlotPoint> {
+    let whole = from.distance(to);
     // A long lead does not lengthen the coils.
     let coils = whole.min(34.0) * 0.7;
     let lead = 0.5 * (whole - coils);
@@ -94,8 +96,8 @@ pub(super) fn zigzag(from: Spot, to: Spot) -> Vec<Spot> {
     points
 }
 
-pub(super) fn dashpot(from: Spot, to: Spot) -> [Vec<Spot>; 4] {
-    let whole = length(from, to);
+pub(super) fn dashpot(from: PlotPoint, to: PlotPoint) -> [Vec<PlotPoint>; 4] {
+    let whole = from.distance(to);
     let half = 0.5 * (whole.min(24.0) * 0.5);
     let middle = 0.5 * whole;
     let at = |distance: f64, across: f64| along(from, to, distance, across);
@@ -109,8 +111,8 @@ pub(super) fn dashpot(from: Spot, to: Spot) -> [Vec<Spot>; 4] {
 }
 
 /// Short strokes on the left of a line, seen from `from` to `to`.
-pub(super) fn hatching(from: Spot, to: Spot) -> Vec<Vec<Spot>> {
-    let whole = length(from, to);
+pub(super) fn hatching(from: PlotPoint, to: PlotPoint) -> Vec<Vec<PlotPoint>> {
+    let whole = from.distance(to);
     let mut strokes = Vec::new();
     let mut distance = 1.0;
     while distance < whole {
@@ -121,9 +123,14 @@ pub(super) fn hatching(from: Spot, to: Spot) -> Vec<Vec<Spot>> {
     strokes
 }
 
-pub(super) fn belt(drawn: &mut ShapeStrokes, (left, right): (f64, f64), top: f64, radius: f64) {
+pub(super) fn belt(
+    drawn: &mut ShapeStrokes,
+    PlotRange { lower: left, upper: right }: PlotRange,
+    top: f64,
+    radius: f64,
+) {
     let middle = top + radius;
-    let centres = [(left + radius, middle), (right - radius, middle)];
+    let centres = [PlotPoint::new(left + radius, middle), PlotPoint::new(right - radius, middle)];
     for centre in centres {
         drawn.thin.push(circle(centre, radius - 2.5));
         drawn.fills.push(FilledArea { outline: circle(centre, 1.5), inked: true });
@@ -134,15 +141,20 @@ pub(super) fn belt(drawn: &mut ShapeStrokes, (left, right): (f64, f64), top: f64
     drawn.lines.push(outline);
 }
 
-pub(super) fn arrow(drawn: &mut ShapeStrokes, from: Spot, to: Spot) {
-    let whole = length(from, to);
+pub(super) fn arrow(drawn: &mut ShapeStrokes, from: PlotPoint, to: PlotPoint) {
+    let whole = from.distance(to);
     drawn.lines.push(vec![from, along(from, to, (whole - 4.0).max(0.0), 0.0)]);
     let foot = whole - 7.0;
     let head = vec![to, along(from, to, foot, -3.0), along(from, to, foot, 3.0), to];
     drawn.fills.push(FilledArea { outline: head, inked: true });
 }
 
-pub(super) fn turn(drawn: &mut ShapeStrokes, centre: Spot, radius: f64, (from, to): (f64, f64)) {
+pub(super) fn turn(
+    drawn: &mut ShapeStrokes,
+    centre: PlotPoint,
+    radius: f64,
+    (from, to): (f64, f64),
+) {
     let points = arc(centre, radius, from, to);
     let Some(&end) = points.last() else { return };
     // The head points along the tangent at its middle.
@@ -150,7 +162,7 @@ pub(super) fn turn(drawn: &mut ShapeStrokes, centre: Spot, radius: f64, (from, t
     let slope = (to - sign * 90.0 / radius.max(1.0) * 2.0).to_radians();
     let (ux, uy) = (-sign * slope.sin(), -sign * slope.cos());
     let back = |distance: f64, across: f64| {
-        (end.0 - distance * ux - across * uy, end.1 - distance * uy + across * ux)
+        PlotPoint::new(end.x - distance * ux - across * uy, end.y - distance * uy + across * ux)
     };
     let tip = back(-4.0, 0.0);
     drawn
@@ -160,28 +172,28 @@ pub(super) fn turn(drawn: &mut ShapeStrokes, centre: Spot, radius: f64, (from, t
 }
 
 /// Points along a circle between two angles (degrees, counter-clockwise).
-pub(super) fn arc(centre: Spot, radius: f64, from: f64, to: f64) -> Vec<Spot> {
+pub(super) fn arc(centre: PlotPoint, radius: f64, from: f64, to: f64) -> Vec<PlotPoint> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
     let steps = ((to - from).abs() / 5.0).ceil().clamp(1.0, 360.0) as usize;
     let point = |step: usize| {
         let angle = (from + (to - from) * step as f64 / steps as f64).to_radians();
-        (centre.0 + radius * angle.cos(), centre.1 - radius * angle.sin())
+        PlotPoint::new(centre.x + radius * angle.cos(), centre.y - radius * angle.sin())
     };
     (0..=steps).map(point).collect()
 }
 
-pub(super) fn circle(centre: Spot, radius: f64) -> Vec<Spot> {
+pub(super) fn circle(centre: PlotPoint, radius: f64) -> Vec<PlotPoint> {
     arc(centre, radius, 0.0, 360.0)
 }
 
-pub(super) fn sector(centre: Spot, radii: (f64, f64), angles: (f64, f64)) -> Vec<Spot> {
+pub(super) fn sector(centre: PlotPoint, radii: (f64, f64), angles: (f64, f64)) -> Vec<PlotPoint> {
     let mut outline = arc(centre, radii.0, angles.0, angles.1);
     outline.extend(arc(centre, radii.1, angles.1, angles.0));
     outline.push(outline[0]);
     outline
 }
 
-pub(super) fn wave(at: Spot, glyph: WaveGlyph) -> Vec<Spot> {
+pub(super) fn wave(at: PlotPoint, glyph: WaveGlyph) -> Vec<PlotPoint> {
     let (width, height) = (16.0, 4.0);
     // Phase in turns, and the value there.
     let samples: Vec<(f64, f64)> = match glyph {
@@ -211,8 +223,9 @@ pub(super) fn wave(at: Spot, glyph: WaveGlyph) -> Vec<Spot> {
             (0..=6).map(|step| f64::from(step) / 4.0).map(|p| (p, triangle(p))).collect()
         }
     };
-    let place =
-        |(phase, value): (f64, f64)| (at.0 + width * (phase / 1.5 - 0.5), at.1 - height * value);
+    let place = |(phase, value): (f64, f64)| {
+        PlotPoint::new(at.x + width * (phase / 1.5 - 0.5), at.y - height * value)
+    };
     samples.into_iter().map(place).collect()
 }
 
@@ -227,16 +240,19 @@ mod tests {
 
     #[test]
     fn a_spring_ends_at_its_ends_and_has_its_coils_between_them() {
-        let points = zigzag((10.0, 20.0), (10.0, 80.0));
-        assert_eq!((points[0], points[points.len() - 1]), ((10.0, 20.0), (10.0, 80.0)));
+        let points = zigzag(PlotPoint::new(10.0, 20.0), PlotPoint::new(10.0, 80.0));
+        assert_eq!(
+            (points[0], points[points.len() - 1]),
+            (PlotPoint::new(10.0, 20.0), PlotPoint::new(10.0, 80.0))
+        );
         let area = bounds(points.iter());
         assert!((area.left - 5.0).abs() < 1e-12 && (area.right - 15.0).abs() < 1e-12);
     }
 
     #[test]
     fn angles_are_counted_counter_clockwise_from_the_right() {
-        let points = arc((0.0, 0.0), 2.0, 0.0, 90.0);
+        let points = arc(PlotPoint::new(0.0, 0.0), 2.0, 0.0, 90.0);
         let end = points[points.len() - 1];
-        assert!(end.0.abs() < 1e-12 && (end.1 + 2.0).abs() < 1e-12);
+        assert!(end.x.abs() < 1e-12 && (end.y + 2.0).abs() < 1e-12);
     }
 }

@@ -1,10 +1,11 @@
 //! Shapes of mechanical drawings as strokes and fills.
 
 use super::outline::{
-    FilledArea, ShapeStrokes, Spot, WaveGlyph, arrow, belt, bounds, circle, corners, dashpot,
-    hatching, sector, turn, wave, zigzag,
+    FilledArea, ShapeStrokes, WaveGlyph, arrow, belt, bounds, circle, corners, dashpot, hatching,
+    sector, turn, wave, zigzag,
 };
 use crate::canvas::Rectangle;
+use crate::geometry::{FrameSize, PlotPoint, PlotRange};
 use crate::palette::{self, Colour, LineStyle, PlotRole};
 
 /// The colour of a part. Kinds of parts differ in shape too, so that a print in grey can be read.
@@ -38,35 +39,35 @@ pub enum SketchShape {
     /// A box: upper left corner, width and height.
     Block {
         /// Upper left corner.
-        corner: (f64, f64),
+        corner: PlotPoint,
         /// Width and height.
-        size: (f64, f64),
+        size: FrameSize,
     },
     /// A coil spring as a zigzag.
     Spring {
         /// One end.
-        from: (f64, f64),
+        from: PlotPoint,
         /// The other end.
-        to: (f64, f64),
+        to: PlotPoint,
     },
     /// A dashpot.
     Damper {
         /// The end of the piston rod.
-        from: (f64, f64),
+        from: PlotPoint,
         /// The end of the cylinder.
-        to: (f64, f64),
+        to: PlotPoint,
     },
     /// A fixed support: a line with hatching on its left, seen from `from` to `to`.
     Ground {
         /// One end.
-        from: (f64, f64),
+        from: PlotPoint,
         /// The other end.
-        to: (f64, f64),
+        to: PlotPoint,
     },
     /// An endless belt on two rollers, whose upper side is at `top`.
     Belt {
         /// Left and right end of the upper side.
-        ends: (f64, f64),
+        ends: PlotRange,
         /// Height of the upper side.
         top: f64,
         /// Radius of the rollers.
@@ -75,28 +76,28 @@ pub enum SketchShape {
     /// A moving surface: a horizontal line with hatching below it.
     Surface {
         /// Left and right end.
-        ends: (f64, f64),
+        ends: PlotRange,
         /// Its height.
         top: f64,
     },
     /// A polyline.
     Line {
         /// Its points.
-        points: Vec<(f64, f64)>,
+        points: Vec<PlotPoint>,
         /// Its dashes.
         style: LineStyle,
     },
     /// A straight arrow with its head at `to`.
     Arrow {
         /// The tail.
-        from: (f64, f64),
+        from: PlotPoint,
         /// The head.
-        to: (f64, f64),
+        to: PlotPoint,
     },
     /// An arrow along a circle, from one angle to another (degrees, counter-clockwise from the right).
     Turn {
         /// Centre of the circle.
-        centre: (f64, f64),
+        centre: PlotPoint,
         /// Its radius.
         radius: f64,
         /// Angles of tail and head.
@@ -105,21 +106,21 @@ pub enum SketchShape {
     /// One and a half periods of a wave.
     Wave {
         /// The centre.
-        at: (f64, f64),
+        at: PlotPoint,
         /// Its form.
         glyph: WaveGlyph,
     },
     /// An annular disc in plan.
     Ring {
         /// The centre.
-        centre: (f64, f64),
+        centre: PlotPoint,
         /// Outer and inner radius.
         radii: (f64, f64),
     },
     /// A part of an annulus between two angles (degrees, counter-clockwise from the right), filled.
     Sector {
         /// The centre.
-        centre: (f64, f64),
+        centre: PlotPoint,
         /// Outer and inner radius.
         radii: (f64, f64),
         /// The two angles.
@@ -128,14 +129,14 @@ pub enum SketchShape {
     /// A filled point.
     Dot {
         /// The centre.
-        at: (f64, f64),
+        at: PlotPoint,
         /// The radius.
         radius: f64,
     },
     /// Nothing that is drawn: a position for a label.
     Spot {
         /// The position.
-        at: (f64, f64),
+        at: PlotPoint,
     },
 }
 
@@ -157,8 +158,13 @@ impl SketchShape {
             }
             Self::Belt { ends, top, radius } => belt(&mut drawn, *ends, *top, *radius),
             Self::Surface { ends, top } => {
-                drawn.lines.push(vec![(ends.0, *top), (ends.1, *top)]);
-                drawn.thin.extend(hatching((ends.1, *top), (ends.0, *top)));
+                drawn
+                    .lines
+                    .push(vec![PlotPoint::new(ends.lower, *top), PlotPoint::new(ends.upper, *top)]);
+                drawn.thin.extend(hatching(
+                    PlotPoint::new(ends.upper, *top),
+                    PlotPoint::new(ends.lower, *top),
+                ));
             }
             Self::Line { points, style } => {
                 drawn.lines.push(points.clone());
@@ -189,12 +195,12 @@ impl SketchShape {
     pub(super) fn area(&self) -> Rectangle {
         match self {
             Self::Block { corner, size } => Rectangle {
-                left: corner.0,
-                top: corner.1,
-                right: corner.0 + size.0,
-                bottom: corner.1 + size.1,
+                left: corner.x,
+                top: corner.y,
+                right: corner.x + size.width,
+                bottom: corner.y + size.height,
             },
-            Self::Spot { at } => Rectangle { left: at.0, top: at.1, right: at.0, bottom: at.1 },
+            Self::Spot { at } => Rectangle { left: at.x, top: at.y, right: at.x, bottom: at.y },
             _ => {
                 let drawn = self.strokes();
                 let outlines = drawn.fills.iter().map(|filled| &filled.outline);
@@ -204,19 +210,22 @@ impl SketchShape {
     }
 
     /// The same shape at another position.
-    pub(super) fn moved(&self, (dx, dy): Spot) -> Self {
-        let by = |spot: &Spot| (spot.0 + dx, spot.1 + dy);
+    pub(super) fn moved(&self, PlotPoint { x: dx, y: dy }: PlotPoint) -> Self {
+        let by = |spot: &PlotPoint| spot.moved(dx, dy);
         match self.clone() {
             Self::Block { corner, size } => Self::Block { corner: by(&corner), size },
             Self::Spring { from, to } => Self::Spring { from: by(&from), to: by(&to) },
             Self::Damper { from, to } => Self::Damper { from: by(&from), to: by(&to) },
             Self::Ground { from, to } => Self::Ground { from: by(&from), to: by(&to) },
-            Self::Belt { ends, top, radius } => {
-                Self::Belt { ends: (ends.0 + dx, ends.1 + dx), top: top + dy, radius }
-            }
-            Self::Surface { ends, top } => {
-                Self::Surface { ends: (ends.0 + dx, ends.1 + dx), top: top + dy }
-            }
+            Self::Belt { ends, top, radius } => Self::Belt {
+                ends: PlotRange::new(ends.lower + dx, ends.upper + dx),
+                top: top + dy,
+                radius,
+            },
+            Self::Surface { ends, top } => Self::Surface {
+                ends: PlotRange::new(ends.lower + dx, ends.upper + dx),
+                top: top + dy,
+            },
             Self::Line { points, style } => {
                 Self::Line { points: points.iter().map(by).collect(), style }
             }
@@ -235,9 +244,9 @@ impl SketchShape {
     }
 
     /// Lines that a text must not cover, those through the interior of an area included.
-    pub(super) fn barriers(&self) -> Vec<Vec<Spot>> {
+    pub(super) fn barriers(&self) -> Vec<Vec<PlotPoint>> {
         let drawn = self.strokes();
-        let mut lines: Vec<Vec<Spot>> = drawn.lines.into_iter().chain(drawn.thin).collect();
+        let mut lines: Vec<Vec<PlotPoint>> = drawn.lines.into_iter().chain(drawn.thin).collect();
         for filled in drawn.fills.iter().filter(|filled| filled.inked) {
             lines.push(filled.outline.clone());
         }
@@ -255,23 +264,27 @@ mod tests {
 
     #[test]
     fn hatching_of_a_ceiling_is_above_it_and_of_a_floor_below() {
-        let ceiling = hatching((0.0, 50.0), (40.0, 50.0));
-        assert!(ceiling.iter().flatten().all(|spot| spot.1 <= 50.0));
-        let floor = SketchShape::Surface { ends: (0.0, 40.0), top: 50.0 }.area();
+        let ceiling = hatching(PlotPoint::new(0.0, 50.0), PlotPoint::new(40.0, 50.0));
+        assert!(ceiling.iter().flatten().all(|spot| spot.y <= 50.0));
+        let floor = SketchShape::Surface { ends: PlotRange::new(0.0, 40.0), top: 50.0 }.area();
         assert!((floor.top - 50.0).abs() < 1e-12 && floor.bottom > 50.0);
     }
 
     #[test]
     fn a_moved_shape_has_a_moved_area() {
         let shapes = [
-            SketchShape::Damper { from: (0.0, 0.0), to: (30.0, 0.0) },
-            SketchShape::Belt { ends: (0.0, 60.0), top: 4.0, radius: 8.0 },
-            SketchShape::Ring { centre: (5.0, 6.0), radii: (20.0, 10.0) },
-            SketchShape::Turn { centre: (5.0, 6.0), radius: 9.0, angles: (10.0, 80.0) },
-            SketchShape::Wave { at: (1.0, 2.0), glyph: WaveGlyph::Triangle },
+            SketchShape::Damper { from: PlotPoint::new(0.0, 0.0), to: PlotPoint::new(30.0, 0.0) },
+            SketchShape::Belt { ends: PlotRange::new(0.0, 60.0), top: 4.0, radius: 8.0 },
+            SketchShape::Ring { centre: PlotPoint::new(5.0, 6.0), radii: (20.0, 10.0) },
+            SketchShape::Turn {
+                centre: PlotPoint::new(5.0, 6.0),
+                radius: 9.0,
+                angles: (10.0, 80.0),
+            },
+            SketchShape::Wave { at: PlotPoint::new(1.0, 2.0), glyph: WaveGlyph::Triangle },
         ];
         for shape in shapes {
-            let (before, after) = (shape.area(), shape.moved((3.0, -7.0)).area());
+            let (before, after) = (shape.area(), shape.moved(PlotPoint::new(3.0, -7.0)).area());
             assert!((after.left - before.left - 3.0).abs() < 1e-9, "{shape:?}");
             assert!((after.bottom - before.bottom + 7.0).abs() < 1e-9, "{shape:?}");
         }

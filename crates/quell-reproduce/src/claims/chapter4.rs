@@ -1,5 +1,6 @@
 //! Claims of chapter 4: normal dither.
 
+use quell::plot::PlotPoint;
 use quell_dynamics::response::{SUPPRESSED, steady_effective_friction};
 use quell_linear::averaging::{
     Averaging, EverywhereStable, FastWave, criterion, everywhere_stable_amplitude, unstable_bands,
@@ -164,7 +165,7 @@ const TOPS_BELOW: f64 = 0.75 * NUMBERS.vm;
 
 /// Slip velocity of the largest friction below that of the law's minimum: measured and averaged.
 fn tops(case: &FrictionPanel) -> Result<[f64; 2], Failure> {
-    let steady = case.steady.iter().map(|&(v, mu, _)| (v, mu));
+    let steady = case.steady.iter().map(|&(v, mu, _)| PlotPoint::new(v, mu));
     tops_among(&case.belt, steady, case.averaged.iter().copied())
 }
 
@@ -175,40 +176,40 @@ pub(super) fn tops_of(belt: &Belt) -> Result<[f64; 2], Failure> {
         .iter()
         .filter_map(|v| {
             let found = steady_effective_friction(belt, *v, TOLERANCE).ok()?;
-            Some((*v, found.coefficient))
+            Some(PlotPoint::new(*v, found.coefficient))
         })
         .collect::<Vec<_>>();
     let averaged = grid
         .iter()
-        .map(|v| Ok((*v, averaged_at("claims", belt, *v)?)))
-        .collect::<Result<Vec<(f64, f64)>, Failure>>()?;
+        .map(|v| Ok(PlotPoint::new(*v, averaged_at("claims", belt, *v)?)))
+        .collect::<Result<Vec<PlotPoint>, Failure>>()?;
     tops_among(belt, steady, averaged)
 }
 
 fn tops_among(
     belt: &Belt,
-    steady: impl IntoIterator<Item = (f64, f64)>,
-    averaged: impl IntoIterator<Item = (f64, f64)>,
+    steady: impl IntoIterator<Item = PlotPoint>,
+    averaged: impl IntoIterator<Item = PlotPoint>,
 ) -> Result<[f64; 2], Failure> {
-    let below = |point: &(f64, f64)| point.0 < TOPS_BELOW;
-    let steady: Vec<(f64, f64)> = steady.into_iter().filter(below).collect();
+    let below = |point: &PlotPoint| point.x < TOPS_BELOW;
+    let steady: Vec<PlotPoint> = steady.into_iter().filter(below).collect();
     let measured = top(&steady, |v| {
         steady_effective_friction(belt, v, TOLERANCE)
             .map(|found| found.coefficient)
             .map_err(|error| failed("claims", &error))
     })?;
-    let curve: Vec<(f64, f64)> = averaged.into_iter().filter(below).collect();
+    let curve: Vec<PlotPoint> = averaged.into_iter().filter(below).collect();
     let averaged = top(&curve, |v| averaged_at("claims", belt, v))?;
     Ok([measured, averaged])
 }
 
 /// Where a function is largest: by golden sections about the largest of some of its points.
-fn top(points: &[(f64, f64)], value: impl Fn(f64) -> Result<f64, Failure>) -> Result<f64, Failure> {
-    let largest = (0..points.len()).max_by(|&a, &b| points[a].1.total_cmp(&points[b].1));
+fn top(points: &[PlotPoint], value: impl Fn(f64) -> Result<f64, Failure>) -> Result<f64, Failure> {
+    let largest = (0..points.len()).max_by(|&a, &b| points[a].y.total_cmp(&points[b].y));
     let Some(largest) = largest.filter(|index| 0 < *index && index + 1 < points.len()) else {
         return Err(failed("claims", &"the friction has no maximum"));
     };
-    let (mut from, mut to) = (points[largest - 1].0, points[largest + 1].0);
+    let (mut from, mut to) = (points[largest - 1].x, points[largest + 1].x);
     let golden = 0.5 * (5.0f64.sqrt() - 1.0);
     while to - from > 1e-6 {
         let (left, right) = (to - golden * (to - from), from + golden * (to - from));
@@ -229,9 +230,10 @@ fn outer_deviation(case: &FrictionPanel, top: f64) -> f64 {
 
 /// Value halfway between the first point and the maximum, less the mean of the two: measured and averaged.
 fn low_region(case: &FrictionPanel, tops: [f64; 2]) -> Option<[f64; 2]> {
-    let measured: Vec<(f64, f64)> = case.steady.iter().map(|&(v, mu, _)| (v, mu)).collect();
-    let from = measured.first()?.0;
-    let bulge = |curve: &[(f64, f64)], top: f64| {
+    let measured: Vec<PlotPoint> =
+        case.steady.iter().map(|&(v, mu, _)| PlotPoint::new(v, mu)).collect();
+    let from = measured.first()?.x;
+    let bulge = |curve: &[PlotPoint], top: f64| {
         let at = |v: f64| interpolated(curve, v);
         at(0.5 * (from + top)) - 0.5 * (at(from) + at(top))
     };

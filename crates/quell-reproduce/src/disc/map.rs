@@ -20,7 +20,8 @@ use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::picture::{self, MapAxis, MapKind};
 use quell::plot::{
-    Figure, Legend, LineStyle, Panel, PlotAxis, ReferenceLine, SharedLegend, Sharing, Size, Spread,
+    Figure, Legend, LineStyle, Panel, PlotAxis, PlotPoint, ReferenceLine, SharedLegend, Sharing,
+    Size, Spread,
 };
 use quell::study::DiscStudy;
 use quell::sweep::Grid;
@@ -211,7 +212,7 @@ fn with_low_frictions(frictions: Vec<f64>) -> Vec<f64> {
 fn panel(
     done: &Growths,
     disc: &Disc,
-    zero: Vec<Vec<(f64, f64)>>,
+    zero: Vec<Vec<PlotPoint>>,
     bar: bool,
 ) -> Result<Panel, quell::plot::PlotError> {
     let logarithmic =
@@ -236,9 +237,11 @@ fn panel(
         let style = if mark.has_tongue { LineStyle::Dashed } else { LineStyle::Dotted };
         ReferenceLine::vertical(mark.speed).label(mark.label).style(style).into()
     }));
-    let zero = zero
-        .into_iter()
-        .map(|line| line.into_iter().map(|(speed, friction)| (speed, friction * unit)).collect());
+    let zero = zero.into_iter().map(|line| {
+        line.into_iter()
+            .map(|PlotPoint { x: speed, y: friction }| PlotPoint::new(speed, friction * unit))
+            .collect()
+    });
     let map = picture::MappedQuantity {
         zero: Some(zero.collect()),
         axes: vec![

@@ -7,7 +7,9 @@ use super::super::product::{DataTable, Product};
 use super::super::source::EntrySource;
 use super::study;
 use quell::complaint::Failure;
-use quell::plot::{Figure, Legend, LineStyle, Panel, PlotAxis, PlotRole, Polyline, Sharing, Size};
+use quell::plot::{
+    Figure, Legend, LineStyle, Panel, PlotAxis, PlotPoint, PlotRole, Polyline, Sharing, Size,
+};
 
 /// Re ρ of the three panels.
 const RATES: [f64; 3] = [0.03, 0.0, -0.03];
@@ -30,7 +32,8 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         for &time in &times {
             table.row([name.as_str().into(), rate.into(), time.into(), value(time).into()]);
         }
-        let envelope = |sign: f64| times.iter().map(move |t| (*t, sign * libm::exp(rate * t)));
+        let envelope =
+            |sign: f64| times.iter().map(move |t| PlotPoint::new(*t, sign * libm::exp(rate * t)));
         let role = [PlotRole::Unstable, PlotRole::Undecided, PlotRole::Stable][index];
         let sign = ["> 0", "= 0", "< 0"][index];
         let panel = Panel::new(
@@ -41,7 +44,7 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
             Polyline::pieces(PlotRole::Guide, [envelope(1.0), envelope(-1.0)])
                 .style(LineStyle::Dashed),
         )
-        .with(Polyline::new(role, times.iter().map(|time| (*time, value(*time)))));
+        .with(Polyline::new(role, times.iter().map(|time| PlotPoint::new(*time, value(*time)))));
         panels.push(panel.title(format!("({name}) Re $ρ$ {sign}")).legend(Legend::None));
     }
     let figure = Figure::grid(3, panels).sharing_x(Sharing::All).size(Size::Frame(250.0, 180.0));

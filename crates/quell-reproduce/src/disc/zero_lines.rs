@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 
 use quell::complaint::Failure;
 use quell::parallel::Parallel;
-use quell::plot::isolines;
+use quell::plot::{PlotPoint, isolines};
 use quell_disc::resonance::{Resonance, Waves};
 use quell_model::Disc;
 use quell_numerics::order::ascending;
@@ -28,15 +28,12 @@ const CLOSENESS: Closeness = Closeness { absolute: 0.0, relative: 1e-11 };
 /// Speeds closer than this fraction of the highest one are one: far below the narrowest tongue that is followed.
 const SAME_SPEED: f64 = 1e-9;
 
-/// A speed and a friction f*.
-pub(super) type SpeedAndFriction = (f64, f64);
-
 /// The lines on which the growth rate is zero.
 pub(super) fn zero_lines(
     source: &str,
     growths: &Growths,
     disc: &Disc,
-) -> Result<Vec<Vec<SpeedAndFriction>>, Failure> {
+) -> Result<Vec<Vec<PlotPoint>>, Failure> {
     let (speeds, frictions) = (&growths.speeds, &growths.frictions);
     let rows = frictions.len();
     let values: Vec<Option<f64>> = (0..rows)
@@ -50,13 +47,14 @@ pub(super) fn zero_lines(
     exact.collect()
 }
 
-/// The root next to a point that marching squares have interpolated on an edge of the grid.
+/// The root next to a point (speed, friction) that marching squares have interpolated on an edge of the grid.
 fn refined(
     source: &str,
     growths: &Growths,
     disc: &Disc,
-    (speed, friction): SpeedAndFriction,
-) -> Result<SpeedAndFriction, Failure> {
+    point: PlotPoint,
+) -> Result<PlotPoint, Failure> {
+    let PlotPoint { x: speed, y: friction } = point;
     let neighbours = |values: &[f64], at: f64| {
         let above = values.partition_point(|value| *value < at).clamp(1, values.len() - 1);
         (values[above - 1], values[above])
@@ -67,12 +65,12 @@ fn refined(
         let rate = |friction: f64| Ok::<f64, Failure>(prepared.growth(source, friction)?.rate);
         let found = try_find_root(rate, below, above, CLOSENESS)?;
         // Without a change of sign (a rate of exactly zero at a point of the grid) the interpolated point is that root.
-        return Ok(found.map_or((speed, friction), |root| (speed, root.location)));
+        return Ok(found.map_or(point, |root| PlotPoint::new(speed, root.location)));
     }
     let (below, above) = neighbours(&growths.speeds, speed);
     let found =
         try_find_root(|speed| rate(source, disc, speed, friction), below, above, CLOSENESS)?;
-    Ok(found.map_or((speed, friction), |root| (root.location, friction)))
+    Ok(found.map_or(point, |root| PlotPoint::new(root.location, friction)))
 }
 
 /// The speeds of a grid, and the centres and edges of the tongues between the highest and the lowest friction.
@@ -188,9 +186,9 @@ mod tests {
         let lines = zero_lines("5.9", &growths, disc).expect("lines");
         assert!(!lines.is_empty());
         // Without modal damping the tongues begin at zero friction.
-        let lowest = lines.iter().flatten().map(|point| point.1).fold(f64::INFINITY, f64::min);
+        let lowest = lines.iter().flatten().map(|point| point.y).fold(f64::INFINITY, f64::min);
         assert!(lowest < 0.03 * unit, "{}", lowest / unit);
-        for &(speed, friction) in lines.iter().flatten() {
+        for &PlotPoint { x: speed, y: friction } in lines.iter().flatten() {
             let growth = |speed: f64| {
                 let prepared = DiscGrowth::at("5.9", disc, speed).expect("a speed");
                 prepared.growth("5.9", friction).expect("growth")

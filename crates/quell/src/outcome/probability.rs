@@ -43,8 +43,7 @@ where
 
     fn datasets(&self, study: &StudyOf<K>) -> Vec<(&'static str, Dataset)> {
         let (unit, factor) = study.unit_of_rates();
-        let curve = self.growth.distribution(POINTS, factor);
-        let (rates, shares): (Vec<f64>, Vec<f64>) = curve.into_iter().unzip();
+        let (rates, shares) = self.growth.distribution(POINTS, factor);
         let dataset = Dataset::of(&study.into(), "probability")
             .fact(self.sentence(study))
             .with_axis(Array::new("share", "1", shares))

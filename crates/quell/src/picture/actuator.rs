@@ -6,8 +6,8 @@ use quell_model::units::Quantity;
 use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
-    Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
-    SharedLegend,
+    Figure, LineStyle, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline,
+    ReferenceLine, Region, SharedLegend,
 };
 use crate::run::actuator::ActuatorFound;
 use crate::run::design::{FrequencyScale, StudyWithDesign};
@@ -73,12 +73,12 @@ fn figure(done: &ActuatorFound, rulers: &ActuatorRulers) -> Figure {
 /// Amplitudes over frequency, with the ranges in which the actuator suffices.
 fn amplitudes(done: &ActuatorFound, rulers: &ActuatorRulers) -> Panel {
     let ActuatorRulers { frequency: (axis, scale), force, .. } = rulers;
-    let curve = |value: &dyn Fn(&ActuatorAtFrequency) -> Option<f64>| -> Vec<(f64, f64)> {
+    let curve = |value: &dyn Fn(&ActuatorAtFrequency) -> Option<f64>| -> Vec<PlotPoint> {
         let points = done.coverage.points.iter();
         points
             .map(|point| {
                 let height = value(point).map_or(f64::NAN, |value| force.place(value));
-                (scale.of(point.frequency), height)
+                PlotPoint::new(scale.of(point.frequency), height)
             })
             .collect()
     };
@@ -98,8 +98,10 @@ fn amplitudes(done: &ActuatorFound, rulers: &ActuatorRulers) -> Panel {
                 .label("least that quenches by averaging"),
         );
     let changes = done.notable.iter().filter(|(what, _)| what.contains('→'));
-    let changes: Vec<(f64, f64)> = changes
-        .filter_map(|(_, at)| Some((scale.of(at.frequency), force.place(largest(at)?))))
+    let changes: Vec<PlotPoint> = changes
+        .filter_map(|(_, at)| {
+            Some(PlotPoint::new(scale.of(at.frequency), force.place(largest(at)?)))
+        })
         .collect();
     if !changes.is_empty() {
         panel = panel.with(
@@ -109,7 +111,7 @@ fn amplitudes(done: &ActuatorFound, rulers: &ActuatorRulers) -> Panel {
                 .label("another limit binds"),
         );
     }
-    let own = (scale.of(done.own.frequency), force.place(done.own_amplitude));
+    let own = PlotPoint::new(scale.of(done.own.frequency), force.place(done.own_amplitude));
     if done.own_amplitude > 0.0
         && done.range.0 <= done.own.frequency
         && done.own.frequency <= done.range.1
@@ -133,7 +135,10 @@ fn slips(done: &ActuatorFound, rulers: &ActuatorRulers) -> Panel {
     for (contact, (name, speed)) in done.contacts.iter().enumerate() {
         let points = done.coverage.points.iter().map(|point| {
             let slip = point.reached_slip(contact).ok().filter(|slip| *slip > 0.0);
-            (scale.of(point.frequency), slip.map_or(f64::NAN, |slip| velocity.place(slip)))
+            PlotPoint::new(
+                scale.of(point.frequency),
+                slip.map_or(f64::NAN, |slip| velocity.place(slip)),
+            )
         });
         let label = if several {
             format!("slip velocity at {name}")

@@ -8,7 +8,7 @@ use super::system::axis_of;
 use super::{undrawable, with_unstable};
 use crate::complaint::Failure;
 use crate::plot::{
-    Figure, Layer, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, Region,
+    Figure, Layer, Legend, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, Region,
     SharedLegend, Size,
 };
 use crate::run::basins::{Basins, FoundBasin, Portrait, Share, quiescence};
@@ -55,11 +55,15 @@ fn axis(study: &SystemStudy, done: &Basins, number: usize) -> (PlotAxis, Ruler) 
 }
 
 /// A limit cycle in the plane.
-fn cycle(study: &SystemStudy, done: &Basins, state: &[f64], period: f64) -> Vec<(f64, f64)> {
+fn cycle(study: &SystemStudy, done: &Basins, state: &[f64], period: f64) -> Vec<PlotPoint> {
     let free = study.system().undithered();
     let samples = CycleSamples::over(&free, &study.observe(), state, period);
     let [first, second] = done.places;
-    samples.states.chunks(state.len()).map(|state| (state[first], state[second])).collect()
+    samples
+        .states
+        .chunks(state.len())
+        .map(|state| PlotPoint::new(state[first], state[second]))
+        .collect()
 }
 
 /// The plane of starts, with the states of each motion at whole periods of the dither.
@@ -83,15 +87,17 @@ fn plane(study: &SystemStudy, done: &Basins, portrait: &Portrait) -> Result<Pane
         };
         if let MotionKind::Cycle { period, .. } = basin.attractor.kind {
             let line = cycle(study, done, &basin.attractor.state, period);
-            let line = line.into_iter().map(|(a, b)| (x.place(a), y.place(b)));
+            let line = line
+                .into_iter()
+                .map(|PlotPoint { x: a, y: b }| PlotPoint::new(x.place(a), y.place(b)));
             over.push(Polyline::new(PlotRole::Exact, line).width(1.2).label(label).into());
             continue;
         }
         let states = &basin.attractor.states;
         let step = states.len().div_ceil(STATES).max(1);
         let states = states.iter().step_by(step).map(|state| done.places.map(|place| state[place]));
-        let states: Vec<(f64, f64)> =
-            states.filter(inside).map(|[a, b]| (x.place(a), y.place(b))).collect();
+        let states: Vec<PlotPoint> =
+            states.filter(inside).map(|[a, b]| PlotPoint::new(x.place(a), y.place(b))).collect();
         if states.is_empty() {
             continue;
         }
@@ -105,7 +111,7 @@ fn plane(study: &SystemStudy, done: &Basins, portrait: &Portrait) -> Result<Pane
             outcomes.enumerate().fold(Panel::new(across, up), |panel, (place, (role, label))| {
                 let starts = done.starts.iter().zip(&portrait.ends);
                 let mine = starts.filter(|(_, end)| **end == Some(place));
-                let mine = mine.map(|([a, b], _)| (x.place(*a), y.place(*b)));
+                let mine = mine.map(|([a, b], _)| PlotPoint::new(x.place(*a), y.place(*b)));
                 panel.with(Points::new(role, mine).size(3.0).label(label))
             });
         return Ok(panel.with_all(over));
@@ -168,10 +174,10 @@ fn panel_of_shares(
         .map(|piece| piece.iter().filter_map(|(value, share)| Some((*value, (*share)?))).collect())
         .filter(|piece: &Vec<_>| !piece.is_empty())
         .collect();
-    let points = |piece: &[(f64, Share)], which: fn(Share) -> f64| -> Vec<(f64, f64)> {
-        piece.iter().map(|(value, share)| (*value, which(*share))).collect()
+    let points = |piece: &[(f64, Share)], which: fn(Share) -> f64| -> Vec<PlotPoint> {
+        piece.iter().map(|(value, share)| PlotPoint::new(*value, which(*share))).collect()
     };
-    let fractions: Vec<Vec<(f64, f64)>> =
+    let fractions: Vec<Vec<PlotPoint>> =
         pieces.iter().map(|piece| points(piece, |share| share.fraction)).collect();
     let mut panel = with_unstable(Panel::new(across, up), intervals(unstable));
     for (number, piece) in pieces.iter().enumerate() {

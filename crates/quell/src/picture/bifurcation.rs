@@ -8,7 +8,9 @@ use super::caption::caption_of_varied;
 use super::ruler::Ruler;
 use super::system::axis_of;
 use super::with_unstable;
-use crate::plot::{Figure, Marker, Panel, PlotRole, Points, Polyline, SharedLegend, Sharing, Size};
+use crate::plot::{
+    Figure, Marker, Panel, PlotPoint, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
+};
 use crate::run::bifurcation::{Bifurcation, Branch, SweepDirection};
 use crate::study::SystemStudy;
 
@@ -80,12 +82,14 @@ pub fn bifurcation(study: &SystemStudy, done: &Bifurcation) -> Figure {
             let section = point.attractor().map_or(&[][..], |attractor| &attractor.section);
             let step = section.len().div_ceil(each).max(1);
             let states = section.iter().step_by(step);
-            states.map(|x| (varied.place(point.value), place.place(*x))).collect::<Vec<_>>()
+            states
+                .map(|x| PlotPoint::new(varied.place(point.value), place.place(*x)))
+                .collect::<Vec<_>>()
         });
         section = section.with(Points::new(role, states).marker(marker).size(width).label(label));
         size = size.with(Polyline::pieces(role, sizes(branch, &varied, &extent)).width(1.6));
         let turning = branch.points.iter().filter_map(|point| {
-            Some((varied.place(point.value), slow.place(point.attractor()?.slow?)))
+            Some(PlotPoint::new(varied.place(point.value), slow.place(point.attractor()?.slow?)))
         });
         frequency = frequency.with(Points::new(role, turning).marker(marker).size(width + 1.0));
     }
@@ -106,15 +110,15 @@ pub fn bifurcation(study: &SystemStudy, done: &Bifurcation) -> Figure {
 }
 
 /// Peak-to-peak over the parameter, with a gap where the kind of motion changes.
-fn sizes(branch: &Branch, varied: &Ruler, extent: &Ruler) -> Vec<Vec<(f64, f64)>> {
-    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+fn sizes(branch: &Branch, varied: &Ruler, extent: &Ruler) -> Vec<Vec<PlotPoint>> {
+    let mut pieces: Vec<Vec<PlotPoint>> = Vec::new();
     let mut before = None;
     for point in &branch.points {
         let Some(attractor) = point.attractor() else {
             before = None;
             continue;
         };
-        let place = (varied.place(point.value), extent.place(attractor.size()));
+        let place = PlotPoint::new(varied.place(point.value), extent.place(attractor.size()));
         match pieces.last_mut() {
             Some(piece) if before == Some(attractor.quiet) => piece.push(place),
             _ => pieces.push(vec![place]),

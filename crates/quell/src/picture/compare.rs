@@ -2,7 +2,7 @@
 
 use super::caption::caption_of;
 use super::ruler::Ruler;
-use crate::plot::{Figure, Panel, PlotAxis, PlotRole, Polyline, SharedLegend, Sharing};
+use crate::plot::{Figure, Panel, PlotAxis, PlotPoint, PlotRole, Polyline, SharedLegend, Sharing};
 use crate::run::compare::{ComparedRecord, ComparedSpectrum, Comparison};
 use crate::study::Study;
 
@@ -41,7 +41,7 @@ fn panel(record: &ComparedRecord, top: f64) -> Panel {
     let curve = |spectrum: &ComparedSpectrum, role| {
         // Points below the visible range are clipped slightly below it, so that the line continues to the edge.
         let points = spectrum.lines().into_iter().skip(1).map(|(frequency, amplitude)| {
-            (ruler.place(frequency), level(amplitude).max(-1.1 * SHOWN))
+            PlotPoint::new(ruler.place(frequency), level(amplitude).max(-1.1 * SHOWN))
         });
         Polyline::new(role, points.collect::<Vec<_>>())
     };

@@ -6,7 +6,7 @@ use quell_model::units::Quantity;
 use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
-    Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
+    Figure, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
 use crate::run::describing::{DescribedContact, DescribedContacts};
 use crate::study::{SystemStudy, UnitSystem};
@@ -65,7 +65,7 @@ fn axis(ruler: &Ruler, largest: f64) -> PlotAxis {
 
 fn line(ruler: &Ruler, role: PlotRole, amplitudes: &[f64], values: Vec<f64>) -> Polyline {
     let places = amplitudes.iter().map(|amplitude| ruler.place(*amplitude));
-    Polyline::new(role, places.zip(values).collect::<Vec<_>>())
+    Polyline::new(role, PlotPoint::zip(places, values))
 }
 
 /// Marks of the limit cycles on the line of no growth.
@@ -75,10 +75,10 @@ fn marks<'a>(
 ) -> Vec<Points> {
     let kinds = [(true, "stable cycle", Marker::Disc), (false, "unstable cycle", Marker::Circle)];
     let of = |(stable, label, marker): (bool, &'static str, Marker)| {
-        let places: Vec<(f64, f64)> = cycles
+        let places: Vec<PlotPoint> = cycles
             .clone()
             .filter(|cycle| cycle.stable == stable)
-            .map(|cycle| (ruler.place(cycle.amplitude), 0.0))
+            .map(|cycle| PlotPoint::new(ruler.place(cycle.amplitude), 0.0))
             .collect();
         let points = || Points::new(PlotRole::Exact, places.clone()).marker(marker).size(7.0);
         (!places.is_empty()).then(|| points().label(label))

@@ -4,8 +4,8 @@ use super::caption::{caption, disc_caption};
 use quell_design::least_dither::{DesignObjective, DesignPoint, LimitedQuantity};
 
 use crate::plot::{
-    Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
-    SharedLegend,
+    Figure, LineStyle, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline,
+    ReferenceLine, Region, SharedLegend,
 };
 use crate::run::design::{LeastDitherFound, StudyWithDesign, quantity_of};
 use crate::study::UnitSystem;
@@ -51,8 +51,8 @@ pub fn disc_design(study: &DiscStudy, done: &LeastDitherFound) -> Figure {
 /// The amplitudes at which the disc changes between quiet and loud, over the speeds, at the frequency of the answer.
 fn tongues(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
     let (number, up) = (&done.over[0], done.amplitude.per_unit);
-    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
-    let mut open: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut pieces: Vec<Vec<PlotPoint>> = Vec::new();
+    let mut open: Vec<Vec<PlotPoint>> = Vec::new();
     for (speed, ends) in &done.tongues {
         // Boundaries go on while their number is the same.
         if open.len() != ends.len() {
@@ -60,7 +60,7 @@ fn tongues(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
             open = vec![Vec::new(); ends.len()];
         }
         for (piece, end) in open.iter_mut().zip(ends) {
-            piece.push((speed * number.per_unit, end * up));
+            piece.push(PlotPoint::new(speed * number.per_unit, end * up));
         }
     }
     pieces.append(&mut open);
@@ -72,7 +72,7 @@ fn tongues(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
             ReferenceLine::horizontal(found.critical.amplitude * up).style(LineStyle::Dashed);
         panel = panel.with(line.label("exact least dither, for all speeds"));
         if let Some(worst) = found.critical.worst.as_ref().and_then(|worst| worst.first()) {
-            let at = vec![(worst * number.per_unit, found.critical.amplitude * up)];
+            let at = vec![PlotPoint::new(worst * number.per_unit, found.critical.amplitude * up)];
             let decides = Points::new(PlotRole::Series(1), at).marker(Marker::Disc);
             panel = panel.with(decides.label("the speed that decides"));
         }
@@ -122,8 +122,9 @@ fn schedule(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
     let per_unit = done.over.first().map_or(1.0, |number| number.per_unit);
     let up = done.amplitude.per_unit;
     let scheduled = done.schedule.iter().flatten();
-    let points = scheduled
-        .filter_map(|row| Some((row.point.first()? * per_unit, row.amplitude.as_ref().ok()? * up)));
+    let points = scheduled.filter_map(|row| {
+        Some(PlotPoint::new(row.point.first()? * per_unit, row.amplitude.as_ref().ok()? * up))
+    });
     let mut panel = Panel::new(axis(across), axis(&done.amplitude.path).from(0.0)).with(
         Polyline::new(PlotRole::Series(0), points.collect::<Vec<_>>())
             .label("exact least amplitude at each operating point"),
@@ -133,7 +134,7 @@ fn schedule(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
             ReferenceLine::horizontal(found.critical.amplitude * up).style(LineStyle::Dashed);
         panel = panel.with(line.label("exact, for all operating points"));
         if let Some(worst) = found.critical.worst.as_ref().and_then(|worst| worst.first()) {
-            let at = vec![(worst * per_unit, found.critical.amplitude * up)];
+            let at = vec![PlotPoint::new(worst * per_unit, found.critical.amplitude * up)];
             panel = panel.with(
                 Points::new(PlotRole::Series(1), at)
                     .marker(Marker::Disc)
@@ -152,7 +153,10 @@ fn region(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
         if done.others.len() == 1 { with_curves(panel, done) } else { with_choices(panel, done) };
     if let Ok(found) = &done.answer().answer {
         let up = done.amplitude.per_unit;
-        let at = vec![(found.critical.others[0] * number.per_unit, found.critical.amplitude * up)];
+        let at = vec![PlotPoint::new(
+            found.critical.others[0] * number.per_unit,
+            found.critical.amplitude * up,
+        )];
         panel = panel.with(
             Points::new(PlotRole::Exact, at)
                 .marker(Marker::Disc)
@@ -167,9 +171,11 @@ fn region(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
 fn with_choices(panel: Panel, done: &LeastDitherFound) -> Panel {
     let (number, up) = (&done.others[0], done.amplitude.per_unit);
     let tried = &done.answer().tried;
-    let points = |keeps: bool| -> Vec<(f64, f64)> {
+    let points = |keeps: bool| -> Vec<PlotPoint> {
         let chosen = tried.iter().filter(|point| (point.use_of_limits() <= 1.0) == keeps);
-        chosen.map(|point| (point.others[0] * number.per_unit, point.amplitude * up)).collect()
+        chosen
+            .map(|point| PlotPoint::new(point.others[0] * number.per_unit, point.amplitude * up))
+            .collect()
     };
     panel
         .with(
@@ -197,11 +203,12 @@ const HEADROOM: f64 = 1.6;
 fn with_curves(mut panel: Panel, done: &LeastDitherFound) -> Panel {
     let (number, up) = (&done.others[0], done.amplitude.per_unit);
     let tried = &done.answer().tried;
-    let least: Vec<(f64, f64)> = tried
+    let least: Vec<PlotPoint> = tried
         .iter()
-        .map(|point| (point.others[0] * number.per_unit, point.amplitude * up))
+        .map(|point| PlotPoint::new(point.others[0] * number.per_unit, point.amplitude * up))
         .collect();
-    let top = HEADROOM * least.iter().map(|(_, amplitude)| *amplitude).fold(0.0, f64::max);
+    let top = HEADROOM
+        * least.iter().map(|PlotPoint { y: amplitude, .. }| *amplitude).fold(0.0, f64::max);
     let quantities: Vec<LimitedQuantity> = tried
         .first()
         .map_or(Vec::new(), |point| point.used.iter().map(|(limit, _)| *limit).collect());
@@ -220,8 +227,8 @@ fn with_curves(mut panel: Panel, done: &LeastDitherFound) -> Panel {
             .label("least amplitude, by averaging"),
     );
     for (place, line) in lines.iter().enumerate() {
-        let x = least.iter().map(|(x, _)| *x);
-        let drawn = x.zip(line).filter_map(|(x, most)| Some((x, (*most)? * up)));
+        let x = least.iter().map(|PlotPoint { x, .. }| *x);
+        let drawn = x.zip(line).filter_map(|(x, most)| Some(PlotPoint::new(x, (*most)? * up)));
         let pieces = pieces_below(drawn, top);
         if !pieces.is_empty() {
             let label = format!("limit of {}", noun_of(quantities[place]));
@@ -250,11 +257,11 @@ fn largest_within(point: &DesignPoint, place: usize) -> Option<f64> {
 }
 
 /// The pieces of a curve up to a height.
-fn pieces_below(curve: impl Iterator<Item = (f64, f64)>, top: f64) -> Vec<Vec<(f64, f64)>> {
-    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
-    for (x, y) in curve {
-        if y <= top {
-            pieces.last_mut().into_iter().for_each(|piece| piece.push((x, y)));
+fn pieces_below(curve: impl Iterator<Item = PlotPoint>, top: f64) -> Vec<Vec<PlotPoint>> {
+    let mut pieces: Vec<Vec<PlotPoint>> = vec![Vec::new()];
+    for point in curve {
+        if point.y <= top {
+            pieces.last_mut().into_iter().for_each(|piece| piece.push(point));
         } else if pieces.last().is_some_and(|piece| !piece.is_empty()) {
             pieces.push(Vec::new());
         }
@@ -264,12 +271,12 @@ fn pieces_below(curve: impl Iterator<Item = (f64, f64)>, top: f64) -> Vec<Vec<(f
 }
 
 /// The amplitudes from the least one to the tightest limit, where it leaves any.
-fn allowed(least: &[(f64, f64)], lines: &[Vec<Option<f64>>], (top, up): (f64, f64)) -> Vec<Region> {
+fn allowed(least: &[PlotPoint], lines: &[Vec<Option<f64>>], (top, up): (f64, f64)) -> Vec<Region> {
     let most = |place: usize| {
         lines.iter().filter_map(|line| line[place]).fold(top, |most, own| most.min(own * up))
     };
     let mut regions: Vec<Vec<(f64, f64, f64)>> = vec![Vec::new()];
-    for (place, (x, amplitude)) in least.iter().enumerate() {
+    for (place, PlotPoint { x, y: amplitude }) in least.iter().enumerate() {
         if *amplitude <= most(place) {
             regions.last_mut().into_iter().for_each(|own| own.push((*x, *amplitude, most(place))));
         } else if regions.last().is_some_and(|own| !own.is_empty()) {
@@ -278,8 +285,8 @@ fn allowed(least: &[(f64, f64)], lines: &[Vec<Option<f64>>], (top, up): (f64, f6
     }
     regions.retain(|own| own.len() > 1);
     let shade = |(number, own): (usize, &Vec<(f64, f64, f64)>)| {
-        let lower = own.iter().map(|(x, low, _)| (*x, *low));
-        let upper = own.iter().map(|(x, _, high)| (*x, *high));
+        let lower = own.iter().map(|(x, low, _)| PlotPoint::new(*x, *low));
+        let upper = own.iter().map(|(x, _, high)| PlotPoint::new(*x, *high));
         let region = Region::between(PlotRole::Stable, lower, upper);
         if number == 0 { region.label("quiet within every limit") } else { region }
     };
@@ -306,9 +313,10 @@ fn frontier(
         Panel::new(PlotAxis::new("limit relative to that of the study"), vertical.from(0.0));
     let mut drawn = 0;
     for own in points.chunk_by(|a, b| a.quantity == b.quantity) {
-        let curve = own.iter().filter_map(|point| Some((point.share, point.objective? * up)));
-        let curve: Vec<(f64, f64)> = curve.collect();
-        let varies = curve.iter().any(|(_, objective)| *objective != curve[0].1);
+        let curve =
+            own.iter().filter_map(|point| Some(PlotPoint::new(point.share, point.objective? * up)));
+        let curve: Vec<PlotPoint> = curve.collect();
+        let varies = curve.iter().any(|point| point.y != curve[0].y);
         if curve.len() > 1 && varies {
             let label = format!("limit of {}, by averaging", noun_of(own[0].quantity));
             panel = panel.with(Polyline::new(PlotRole::Series(drawn), curve).label(label));
@@ -317,6 +325,7 @@ fn frontier(
     }
     let found = done.answer().answer.as_ref().ok()?;
     let objective = found.critical.objective.clone().ok()?;
-    let at = Points::new(PlotRole::Exact, vec![(1.0, objective * up)]).marker(Marker::Disc);
+    let at = Points::new(PlotRole::Exact, vec![PlotPoint::new(1.0, objective * up)])
+        .marker(Marker::Disc);
     (drawn > 0).then(|| panel.with(at.size(4.0).label("exact least dither")))
 }

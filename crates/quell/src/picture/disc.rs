@@ -10,8 +10,8 @@ use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
     Colouring, Contours, Field, Figure, Heatmap, Layer, Legend, LineStyle, Marker, Note, Palette,
-    Panel, PlotAxis, PlotError, PlotRole, Points, Polyline, ReferenceLine, Shading, SharedLegend,
-    Sharing, Size,
+    Panel, PlotAxis, PlotError, PlotPoint, PlotRange, PlotRole, Points, Polyline, ReferenceLine,
+    Shading, SharedLegend, Sharing, Size,
 };
 use crate::run::disc::campbell::Campbell;
 use crate::run::disc::modes::Modes;
@@ -52,7 +52,8 @@ pub fn modes(study: &DiscStudy, done: &Modes) -> Result<Figure, Failure> {
                 .size(Size::Frame(190.0, 190.0))
         }
         ModeSource::List(_) | ModeSource::File { .. } => {
-            let points = done.rows.iter().map(|row| (row.diameters as f64, row.ratio));
+            let points =
+                done.rows.iter().map(|row| PlotPoint::new(row.diameters as f64, row.ratio));
             let panel = Panel::new(
                 PlotAxis::new("nodal diameters").symbol("q"),
                 PlotAxis::new("frequency").symbol("β").from(0.0),
@@ -82,12 +83,12 @@ pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
         let (x, y) = (places[column], places[row]);
         mode.shape.deflection(libm::hypot(x, y), libm::atan2(y, x))
     })?;
-    let most = field.extremes().map_or(1.0, |(low, high)| high.max(-low));
+    let most = field.extremes().map_or(1.0, |PlotRange { lower: low, upper: high }| high.max(-low));
     let shading = Shading::new(Palette::Diverging).range(-most, most);
     let circle = |radius: f64| {
         (0..=180).map(move |k| {
             let angle = std::f64::consts::TAU * f64::from(k) / 180.0;
-            (radius * libm::cos(angle), radius * libm::sin(angle))
+            PlotPoint::new(radius * libm::cos(angle), radius * libm::sin(angle))
         })
     };
     let axis = |symbol: &str| {
@@ -153,15 +154,17 @@ pub fn stability(study: &DiscStudy, done: &DiscStability, campbell: &Campbell) -
     let every = |pick: fn(&(f64, f64)) -> f64| {
         let columns = campbell.speeds.iter().zip(&campbell.motions);
         columns
-            .flat_map(|(speed, motions)| motions.iter().map(|motion| (*speed, pick(motion))))
+            .flat_map(|(speed, motions)| {
+                motions.iter().map(|motion| PlotPoint::new(*speed, pick(motion)))
+            })
             .collect::<Vec<_>>()
     };
-    let dots = |points: Vec<(f64, f64)>, label: &str| {
+    let dots = |points: Vec<PlotPoint>, label: &str| {
         Points::new(PlotRole::Undithered, points).marker(Marker::Disc).size(1.6).label(label)
     };
     let speed = study.disc().speed();
     let own = |value: f64, marker: Marker| {
-        Points::new(PlotRole::Exact, [(speed, value)]).marker(marker).size(7.0)
+        Points::new(PlotRole::Exact, [PlotPoint::new(speed, value)]).marker(marker).size(7.0)
     };
     let frequency = Panel::new(across(), PlotAxis::new("frequency").symbol("|Im ρ|").from(0.0))
         .with(dots(every(|motion| motion.0), "motions without dither"))
@@ -172,7 +175,7 @@ pub fn stability(study: &DiscStudy, done: &DiscStability, campbell: &Campbell) -
         .with(ReferenceLine::horizontal(0.0))
         .with(dots(every(|motion| motion.1), "motions without dither"));
     if let Some(dithered) = &campbell.dithered {
-        let points = campbell.speeds.iter().copied().zip(dithered.iter().copied());
+        let points = PlotPoint::zip(campbell.speeds.iter().copied(), dithered.iter().copied());
         growth =
             growth.with(Polyline::new(PlotRole::Dithered, points).label("largest, with dither"));
     }
@@ -211,7 +214,8 @@ pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
             ReferenceLine::horizontal(load.friction).role(PlotRole::Guide).label("this study"),
         );
         let growing = done.growing.iter().flatten().map(|growing| growing.speeds);
-        let ends = growing.map(|speeds| [(speeds.from, load.friction), (speeds.to, load.friction)]);
+        let ends = growing
+            .map(|speeds| [speeds.from, speeds.to].map(|x| PlotPoint::new(x, load.friction)));
         panel = panel.with(
             Polyline::pieces(PlotRole::Exact, ends).width(3.0).label("exactly, a motion grows"),
         );
@@ -239,7 +243,7 @@ pub fn tongues(
         DiscDither::None | DiscDither::Normal { .. } => Order::First,
     };
     let count = waves.undithered(from..=to).len() + waves.dithered(from..=to).len();
-    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 2 * count];
+    let mut pieces: Vec<Vec<PlotPoint>> = vec![Vec::new(); 2 * count];
     // The theory applies to non-negative friction.
     for &friction in frictions.iter().filter(|friction| **friction >= 0.0) {
         let at = waves.with_friction(friction);
@@ -250,7 +254,7 @@ pub fn tongues(
             if edges.iter().all(near) {
                 for (side, edge) in edges.into_iter().enumerate() {
                     if let Some(piece) = pieces.get_mut(2 * index + side) {
-                        piece.push((edge, up(friction)));
+                        piece.push(PlotPoint::new(edge, up(friction)));
                     }
                 }
             }

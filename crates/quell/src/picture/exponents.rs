@@ -1,6 +1,6 @@
 //! Convergence of Lyapunov exponents: their means over the time up to which they are averaged.
 
-use crate::plot::{Figure, Legend, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine};
+use crate::plot::{Figure, Legend, Panel, PlotAxis, PlotPoint, PlotRole, Polyline, ReferenceLine};
 use crate::run::exponents::MeasuredExponents;
 
 /// Units of time and of rates, each with its value in a unit of the equations.
@@ -29,8 +29,9 @@ pub fn exponents(
     let known = found.found.means.iter().enumerate().filter(|(_, means)| !means.is_empty());
     for (index, means) in known {
         let points = found.times().zip(means);
-        let points: Vec<(f64, f64)> =
-            points.map(|(time, mean)| (units.time.1 * time, units.rate.1 * mean)).collect();
+        let points: Vec<PlotPoint> = points
+            .map(|(time, mean)| PlotPoint::new(units.time.1 * time, units.rate.1 * mean))
+            .collect();
         let line = Polyline::pieces(PlotRole::Exact, vec![points]);
         panel = panel.with(line.label(format!("exponent {}", index + 1)));
     }

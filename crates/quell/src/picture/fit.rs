@@ -2,7 +2,7 @@
 
 use super::ruler::Ruler;
 use crate::plot::{
-    Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
+    Figure, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine, Region,
     SharedLegend, Sharing,
 };
 use crate::run::fit::FrictionFit;
@@ -18,8 +18,13 @@ pub fn fit(done: &FrictionFit) -> Figure {
     let ruler = Ruler::of_unit(done.data.velocity_unit().unwrap_or_default(), largest);
     let axis = || ruler.axis("slip speed", "|v_r|");
     let curve = done.curve(best, CURVE);
-    let line = |values: &[f64]| -> Vec<(f64, f64)> {
-        curve.speeds.iter().zip(values).map(|(v, value)| (ruler.place(*v), *value)).collect()
+    let line = |values: &[f64]| -> Vec<PlotPoint> {
+        curve
+            .speeds
+            .iter()
+            .zip(values)
+            .map(|(v, value)| PlotPoint::new(ruler.place(*v), *value))
+            .collect()
     };
     let friction = match done.force_unit() {
         _ if done.friction_is() == "coefficient" => {
@@ -36,7 +41,10 @@ pub fn fit(done: &FrictionFit) -> Figure {
         let values: Vec<f64> = curve.speeds.iter().map(|v| fit.coefficient(*v)).collect();
         upper = upper.with(Polyline::new(PlotRole::Series(place), line(&values)).label(fit.name()));
     }
-    let measured = done.points.iter().map(|point| (ruler.place(point.speed()), point.coefficient));
+    let measured = done
+        .points
+        .iter()
+        .map(|point| PlotPoint::new(ruler.place(point.speed()), point.coefficient));
     upper = upper.with(
         Points::new(PlotRole::Printed, measured).marker(Marker::Circle).size(5.0).label("measured"),
     );
@@ -44,7 +52,7 @@ pub fn fit(done: &FrictionFit) -> Figure {
         .points
         .iter()
         .zip(&best.residuals)
-        .map(|(point, residual)| (ruler.place(point.speed()), *residual));
+        .map(|(point, residual)| PlotPoint::new(ruler.place(point.speed()), *residual));
     let residual = match done.force_unit() {
         _ if done.friction_is() == "coefficient" => PlotAxis::new("residual").symbol("μ − μ_{fit}"),
         None => PlotAxis::new("residual"),

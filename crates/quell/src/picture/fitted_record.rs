@@ -3,7 +3,7 @@
 use super::caption::caption_of;
 use super::ruler::Ruler;
 use crate::plot::{
-    Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
+    Figure, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine, Region,
     SharedLegend, Sharing,
 };
 use crate::run::decay::FreeDecay;
@@ -31,12 +31,12 @@ pub(super) fn figure(shown: &FittedRecord<'_>) -> Figure {
     let place = Ruler::of_unit(record.unit.unwrap_or(""), largest(&record.values));
     let residuals: Vec<f64> = record.values.iter().zip(shown.fitted).map(|(y, f)| y - f).collect();
     let small = Ruler::of_unit(record.unit.unwrap_or(""), largest(&residuals));
-    let line = |values: &[f64], ruler: &Ruler| -> Vec<(f64, f64)> {
+    let line = |values: &[f64], ruler: &Ruler| -> Vec<PlotPoint> {
         record
             .times
             .iter()
             .zip(values)
-            .map(|(t, value)| (time.place(*t), ruler.place(*value)))
+            .map(|(t, value)| PlotPoint::new(time.place(*t), ruler.place(*value)))
             .collect()
     };
     let name = record.quantity.name();
@@ -63,7 +63,7 @@ fn small_axis(ruler: &Ruler) -> PlotAxis {
 }
 
 /// Few samples as circles, many as a grey line.
-fn measured(panel: Panel, points: &[(f64, f64)], label: &str) -> Panel {
+fn measured(panel: Panel, points: &[PlotPoint], label: &str) -> Panel {
     if points.len() <= POINTS {
         let circles = Points::new(PlotRole::Printed, points.to_vec());
         return panel.with(circles.marker(Marker::Circle).size(3.5).label(label));

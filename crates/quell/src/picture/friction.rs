@@ -6,7 +6,7 @@ use quell_numerics::order::ascending_by;
 use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
-    Figure, Layer, LineStyle, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
+    Figure, Layer, LineStyle, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine,
 };
 use crate::run::friction::{ContactCurves, FrictionCurve};
 use crate::study::SystemStudy;
@@ -38,17 +38,24 @@ fn panel(
 ) -> Panel {
     let slip = curve.slip_velocities();
     let line = |role, values: Vec<f64>| {
-        let mut points: Vec<(f64, f64)> =
-            slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
-        ascending_by(&mut points, |a| a.0);
+        let mut points: Vec<PlotPoint> = slip
+            .iter()
+            .zip(values)
+            .map(|(&v, value)| PlotPoint::new(ruler.place(v), value))
+            .collect();
+        ascending_by(&mut points, |a| a.x);
         // The law is discontinuous at zero slip velocity.
-        let (left, right): (Vec<_>, Vec<_>) = points.into_iter().partition(|(v, _)| *v <= 0.0);
+        let (left, right): (Vec<_>, Vec<_>) =
+            points.into_iter().partition(|PlotPoint { x: v, .. }| *v <= 0.0);
         Polyline::pieces(role, [left, right])
     };
     let whole = |role, values: Vec<f64>| {
-        let mut points: Vec<(f64, f64)> =
-            slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
-        ascending_by(&mut points, |a| a.0);
+        let mut points: Vec<PlotPoint> = slip
+            .iter()
+            .zip(values)
+            .map(|(&v, value)| PlotPoint::new(ruler.place(v), value))
+            .collect();
+        ascending_by(&mut points, |a| a.x);
         Polyline::new(role, points)
     };
     let mut panel = Panel::new(

@@ -10,7 +10,8 @@ use quell_model::{Input, Profile, System};
 
 use super::ruler::Ruler;
 use crate::plot::{
-    Colouring, Field, Heatmap, Palette, Panel, PlotAxis, PlotRole, Polyline, Shading, Spread,
+    Colouring, Field, Heatmap, Palette, Panel, PlotAxis, PlotPoint, PlotRole, Polyline, Shading,
+    Spread,
 };
 use crate::run::manoeuvre::{SampledMotion, Spectrogram};
 use crate::run::system::periods::natural_period;
@@ -70,9 +71,12 @@ pub(super) fn around_response(
         (Some(from), Some(to)) if from < to => (*from, *to),
         _ => return (Vec::new(), None),
     };
-    let curve = |profile: &Profile, ruler: &Ruler| -> Vec<(f64, f64)> {
+    let curve = |profile: &Profile, ruler: &Ruler| -> Vec<PlotPoint> {
         let moment = |place: usize| from + (to - from) * place as f64 / (POINTS - 1) as f64;
-        (0..POINTS).map(moment).map(|at| (time.place(at), ruler.place(profile.value(at)))).collect()
+        (0..POINTS)
+            .map(moment)
+            .map(|at| PlotPoint::new(time.place(at), ruler.place(profile.value(at))))
+            .collect()
     };
     let panel = |name: &str, quantity: Quantity, profiles: &[(String, Profile)]| {
         let largest =

@@ -12,8 +12,8 @@ use quell_numerics::order::ascending_by;
 use super::ruler::short;
 use crate::plot::{
     Colouring, Contours, Field, Figure, Fill, Heatmap, Layer, Legend, Palette, Panel, PlotAxis,
-    PlotError, PlotRole, Polyline, ReferenceLine, Region, Shading, SharedLegend, Sharing, Size,
-    Spread, Tint,
+    PlotError, PlotPoint, PlotRange, PlotRole, Polyline, ReferenceLine, Region, Shading,
+    SharedLegend, Sharing, Size, Spread, Tint,
 };
 
 /// Contour levels of a residual vibration by which maps are read (per cent): quenched, halved, without effect.
@@ -70,7 +70,7 @@ pub struct MappedQuantity {
     /// Reasons for missing numbers, as shown in the legend.
     pub reasons: Vec<String>,
     /// The zero lines of a rate, if they are known more accurately than by interpolation between the points of the map.
-    pub zero: Option<Vec<Vec<(f64, f64)>>>,
+    pub zero: Option<Vec<Vec<PlotPoint>>>,
     /// Theoretical curves and regions, drawn over each panel.
     pub over: Vec<Layer>,
 }
@@ -261,7 +261,7 @@ fn colouring(map: &MappedQuantity) -> Colouring {
 }
 
 /// Powers of ten within a range; in a small range also 2 and 5 times these powers.
-fn round_ratios((least, most): (f64, f64)) -> Vec<f64> {
+fn round_ratios(PlotRange { lower: least, upper: most }: PlotRange) -> Vec<f64> {
     let (least, most) = (least.max(1e-12 * most), most);
     if most <= least {
         return Vec::new();
@@ -323,7 +323,7 @@ fn sweep(map: &MappedQuantity, x: &MapAxis) -> Result<Panel, PlotError> {
         let scale = shown_scale(map);
         let number = |value: &Result<f64, usize>| value.map_or(f64::NAN, |value| scale * value);
         // A point that is not finite leaves a gap in the curve.
-        let points = at.iter().copied().zip(values.iter().map(number));
+        let points = PlotPoint::zip(at.iter().copied(), values.iter().map(number));
         panel = panel.with(Polyline::new(PlotRole::Exact, points));
     }
     for (number, from, to) in runs(&|value: Result<f64, usize>| value.err()) {

@@ -8,7 +8,9 @@ use quell_model::units::Quantity;
 use super::caption::caption;
 use super::ruler::Ruler;
 use crate::complaint::Failure;
-use crate::plot::{Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, Size};
+use crate::plot::{
+    Figure, LineStyle, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, Size,
+};
 use crate::run::orbit::{FoundMotion, PeriodicResponse, sentence};
 use crate::study::SystemStudy;
 
@@ -37,7 +39,8 @@ fn plane(study: &SystemStudy, found: &FoundMotion) -> Panel {
     let x = Ruler::new(study, Quantity::Displacement, samples.observed.iter().copied());
     let v = Ruler::new(study, Quantity::Velocity, samples.rate.iter().copied());
     let states = samples.observed.iter().zip(&samples.rate);
-    let points: Vec<(f64, f64)> = states.map(|(a, b)| (x.place(*a), v.place(*b))).collect();
+    let points: Vec<PlotPoint> =
+        states.map(|(a, b)| PlotPoint::new(x.place(*a), v.place(*b))).collect();
     let across = x.axis("observed displacement", "");
     let up = v.axis("observed velocity", "");
     let role = if found.orbit.is_free { PlotRole::Undithered } else { PlotRole::Dithered };
@@ -51,7 +54,7 @@ fn plane(study: &SystemStudy, found: &FoundMotion) -> Panel {
         let does = |place: usize| {
             samples.contacts.iter().any(|contact| contact.phases.get(place) == Some(&phase))
         };
-        let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+        let mut pieces: Vec<Vec<PlotPoint>> = Vec::new();
         for (place, point) in points.iter().enumerate() {
             match pieces.last_mut() {
                 Some(piece) if does(place) && place > 0 && does(place - 1) => piece.push(*point),
@@ -71,11 +74,11 @@ fn plane(study: &SystemStudy, found: &FoundMotion) -> Panel {
 fn multipliers(found: &FoundMotion) -> Panel {
     let circle = (0..=CIRCLE).map(|k| {
         let angle = TAU * f64::from(k) / f64::from(CIRCLE);
-        (libm::cos(angle), libm::sin(angle))
+        PlotPoint::new(libm::cos(angle), libm::sin(angle))
     });
     let reach = 1.1_f64.max(1.1 * found.orbit.radius());
     let axis = |name: &str| PlotAxis::new(name).symbol("λ").between(-reach, reach);
-    let places = found.orbit.multipliers.iter().map(|z| (z.re, z.im));
+    let places = found.orbit.multipliers.iter().map(|z| PlotPoint::new(z.re, z.im));
     Panel::new(axis("Re"), axis("Im"))
         .with(Polyline::new(PlotRole::Guide, circle))
         .with(Points::new(PlotRole::Exact, places).marker(Marker::Disc).size(7.0))

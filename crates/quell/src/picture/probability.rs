@@ -3,7 +3,7 @@
 use super::caption::caption_of;
 use crate::outcome::DISTRIBUTION_POINTS;
 use crate::plot::{
-    Figure, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend,
+    Figure, LineStyle, Panel, PlotAxis, PlotPoint, PlotRole, Polyline, ReferenceLine, SharedLegend,
 };
 use crate::run::probability::{SampledGrowth, VibrationProbability};
 use crate::study::Study;
@@ -17,7 +17,10 @@ pub fn probability(
 ) -> Figure {
     let axis = PlotAxis::new("growth rate").symbol("Re λ");
     let axis = if unit == "1" { axis } else { axis.unit(unit) };
-    let curve = |growth: &SampledGrowth| growth.distribution(DISTRIBUTION_POINTS, factor);
+    let curve = |growth: &SampledGrowth| {
+        let (rates, shares) = growth.distribution(DISTRIBUTION_POINTS, factor);
+        PlotPoint::zip(rates, shares)
+    };
     let mut panel = Panel::new(axis, PlotAxis::new("share of the samples below").between(0.0, 1.0))
         .with(ReferenceLine::vertical(0.0).label("grows beyond"));
     let limit = done.limit_growth.as_ref();

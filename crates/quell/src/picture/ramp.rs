@@ -5,7 +5,8 @@ use quell_model::units::Quantity;
 use super::caption::caption;
 use super::ruler::Ruler;
 use crate::plot::{
-    Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
+    Figure, LineStyle, Panel, PlotPoint, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
+    Size,
 };
 use crate::run::ramp::Ramp;
 use crate::study::SystemStudy;
@@ -25,8 +26,9 @@ pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
         Panel::new(axis(), place.axis("observed displacement", "")),
         done,
         |pieces| {
-            let points =
-                |(time, x): (f64, f64)| (across.place(done.ramped.value(time)), place.place(x));
+            let points = |(time, x): (f64, f64)| {
+                PlotPoint::new(across.place(done.ramped.value(time)), place.place(x))
+            };
             pieces.into_iter().map(points).collect()
         },
         displacement.collect(),
@@ -37,8 +39,9 @@ pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
         Panel::new(axis(), size.axis("slow vibration", "").from(0.0)),
         done,
         |pieces| {
-            let points =
-                |(time, x): (f64, f64)| (across.place(done.ramped.value(time)), size.place(x));
+            let points = |(time, x): (f64, f64)| {
+                PlotPoint::new(across.place(done.ramped.value(time)), size.place(x))
+            };
             pieces.into_iter().map(points).collect()
         },
         levels,
@@ -62,7 +65,7 @@ pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
 fn with_ways(
     panel: Panel,
     done: &Ramp,
-    to_points: impl Fn(Vec<(f64, f64)>) -> Vec<(f64, f64)>,
+    to_points: impl Fn(Vec<(f64, f64)>) -> Vec<PlotPoint>,
     values: Vec<(f64, f64)>,
 ) -> Panel {
     let rises = |time: f64| {
@@ -85,7 +88,7 @@ fn with_ways(
     let looks = [(PlotRole::Series(0), "rising"), (PlotRole::Series(1), "falling")];
     let curves = ways.into_iter().zip(looks).filter(|(pieces, _)| !pieces.is_empty());
     let curves = curves.map(|(pieces, (role, label))| {
-        let pieces: Vec<Vec<(f64, f64)>> = pieces.into_iter().map(&to_points).collect();
+        let pieces: Vec<Vec<PlotPoint>> = pieces.into_iter().map(&to_points).collect();
         Polyline::pieces(role, pieces).label(label)
     });
     panel.with_all(curves.collect::<Vec<_>>())

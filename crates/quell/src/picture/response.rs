@@ -6,7 +6,7 @@ use quell_model::units::Quantity;
 use super::caption::caption;
 use super::ruler::{Ruler, time_between};
 use super::system::frequency_axis;
-use crate::plot::{Figure, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend};
+use crate::plot::{Figure, Panel, PlotPoint, PlotRole, Polyline, ReferenceLine, SharedLegend};
 use crate::run::response::MeasuredResponse;
 use crate::run::system::start::start_in_words;
 use crate::study::SystemStudy;
@@ -33,7 +33,7 @@ pub fn response(study: &SystemStudy, done: &MeasuredResponse) -> Figure {
 }
 
 /// The records with and without dither, or one of them.
-fn both(panel: Panel, dithered: bool, curves: [Vec<(f64, f64)>; 2]) -> Panel {
+fn both(panel: Panel, dithered: bool, curves: [Vec<PlotPoint>; 2]) -> Panel {
     let [with, without] = curves;
     if !dithered {
         return panel.with(Polyline::new(PlotRole::Exact, without));
@@ -54,12 +54,12 @@ fn record(study: &SystemStudy, done: &MeasuredResponse, dithered: bool) -> Panel
     let (time, clock) = time_between(study, (first, end));
     let values = [with, without].map(|record| record.samples.iter().copied());
     let x = Ruler::new(study, Quantity::Displacement, values.into_iter().flatten());
-    let points = |record: &SettledRecord| -> Vec<(f64, f64)> {
+    let points = |record: &SettledRecord| -> Vec<PlotPoint> {
         let samples = record.samples.iter().enumerate();
         let times = samples
             .map(|(number, value)| (f64::mul_add(number as f64, record.step, record.from), *value));
         let shown = times.filter(|(time, _)| *time >= first);
-        shown.map(|(time, value)| (clock.place(time), x.place(value))).collect()
+        shown.map(|(time, value)| PlotPoint::new(clock.place(time), x.place(value))).collect()
     };
     let panel = Panel::new(time, x.axis("observed displacement", ""));
     both(panel, dithered, [points(with), points(without)])
@@ -78,12 +78,12 @@ fn spectra(
     let floor = top * 10f64.powi(-DECADES);
     let size = Ruler::new(study, Quantity::Displacement, [top]);
     let end = 1.3 * fastest_line(records, floor);
-    let points = records.map(|record| -> Vec<(f64, f64)> {
+    let points = records.map(|record| -> Vec<PlotPoint> {
         let lines = record.spectrum.frequencies().zip(record.spectrum.amplitudes());
         let shown = lines.skip(1).take_while(|(frequency, _)| *frequency <= end);
         shown
             .map(|(frequency, amplitude)| {
-                (factor * frequency, size.place(amplitude.max(0.1 * floor)))
+                PlotPoint::new(factor * frequency, size.place(amplitude.max(0.1 * floor)))
             })
             .collect()
     });

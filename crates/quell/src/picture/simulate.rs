@@ -7,7 +7,7 @@ use super::caption::caption;
 use super::manoeuvre::around_response;
 use super::ruler::{Ruler, time_between};
 use crate::plot::{
-    Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
+    Figure, LineStyle, Panel, PlotPoint, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
 };
 use crate::run::simulate::Simulation;
 use crate::run::simulate::history::EventHistory;
@@ -49,9 +49,10 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
     let x = Ruler::new(study, Quantity::Displacement, places);
     let (time, clock) = time_between(study, (done.start.time, done.end.time));
     let across = x.axis("observed displacement", "");
-    let over_time = |motion: &Observed| -> Vec<(f64, f64)> {
+    let over_time = |motion: &Observed| -> Vec<PlotPoint> {
         let times = motion.times.iter().map(|time| clock.place(*time));
-        times.zip(motion.displacement.iter().map(|value| x.place(*value))).collect()
+        let places = motion.displacement.iter().map(|value| x.place(*value));
+        PlotPoint::zip(times, places).collect()
     };
     let curves = curves(study, &with, without.as_ref(), &over_time);
     let ends = both().flat_map(|motion| &motion.displacement).map(|value| x.place(*value));
@@ -78,9 +79,9 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
         let surface = surface(study);
         let shown = rates().flatten().copied().chain(surface);
         let v = Ruler::new(study, Quantity::Velocity, shown);
-        let plane = |motion: &Observed| -> Vec<(f64, f64)> {
+        let plane = |motion: &Observed| -> Vec<PlotPoint> {
             let rates = motion.velocity.iter().flatten().map(|rate| v.place(*rate));
-            motion.displacement.iter().map(|value| x.place(*value)).zip(rates).collect()
+            PlotPoint::zip(motion.displacement.iter().map(|value| x.place(*value)), rates).collect()
         };
         let curves = self::curves(study, &with, without.as_ref(), &plane);
         let surface = surface.map(|surface| {
@@ -100,7 +101,7 @@ fn curves(
     study: &SystemStudy,
     with: &Observed,
     without: Option<&Observed>,
-    points: &dyn Fn(&Observed) -> Vec<(f64, f64)>,
+    points: &dyn Fn(&Observed) -> Vec<PlotPoint>,
 ) -> Vec<Polyline> {
     let role = if study.system().inputs.is_empty() { PlotRole::Exact } else { PlotRole::Dithered };
     let with = Polyline::new(role, points(with));
@@ -127,10 +128,10 @@ fn bars(history: &EventHistory, clock: &Ruler, (least, most): (f64, f64)) -> Vec
             let of_phase = intervals.iter().filter(move |interval| interval.phase == phase);
             let height = least - (contact + 1) as f64 * SPACING * length;
             of_phase.map(move |interval| {
-                [(clock.place(interval.from), height), (clock.place(interval.to), height)]
+                [interval.from, interval.to].map(|time| PlotPoint::new(clock.place(time), height))
             })
         });
-        let pieces: Vec<[(f64, f64); 2]> = pieces.collect();
+        let pieces: Vec<[PlotPoint; 2]> = pieces.collect();
         if !pieces.is_empty() {
             let bars = Polyline::pieces(PlotRole::Series(series), pieces);
             lines.push(bars.width(BAR).style(LineStyle::Solid).label(label));

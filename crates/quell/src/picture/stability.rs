@@ -8,7 +8,7 @@ use super::caption::caption;
 use super::ruler::Ruler;
 use super::system::{frequency_axis, growth_axis};
 use crate::plot::{
-    Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
+    Figure, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
 use crate::run::stability::{OneMassStability, SlidingStability, UnderDither};
 use crate::study::{SystemStudy, UnitSystem};
@@ -40,7 +40,7 @@ fn of_one_mass(study: &SystemStudy, one: &OneMassStability, dither: &UnderDither
     let value = |amplitude: f64| {
         let changed = belt.with_amplitude(0, amplitude).ok()?;
         let found = criterion(&changed, Averaging::FiniteR).ok()?;
-        Some((place(amplitude), found.value))
+        Some(PlotPoint::new(place(amplitude), found.value))
     };
     let pieces = between(&critical, end, value);
     let vertical = upwards(&pieces);
@@ -50,13 +50,14 @@ fn of_one_mass(study: &SystemStudy, one: &OneMassStability, dither: &UnderDither
             .with(Region::across_y(PlotRole::Unstable, f64::NEG_INFINITY, 0.0).label("unstable"))
             .with(ReferenceLine::horizontal(0.0));
     if let Ok(found) = criterion(&belt.undithered(), Averaging::FiniteR) {
-        let level = [(0.0, found.value), (place(end), found.value)];
+        let level = [PlotPoint::new(0.0, found.value), PlotPoint::new(place(end), found.value)];
         panel = panel.with(Polyline::new(PlotRole::Undithered, level).label("without dither"));
     }
     panel = panel.with(Polyline::pieces(PlotRole::Averaged, pieces).label("averaged"));
-    if let Some((place, value)) = value(own) {
-        let point =
-            Points::new(PlotRole::Dithered, [(place, value)]).marker(Marker::Disc).size(7.0);
+    if let Some(PlotPoint { x: place, y: value }) = value(own) {
+        let point = Points::new(PlotRole::Dithered, [PlotPoint::new(place, value)])
+            .marker(Marker::Disc)
+            .size(7.0);
         panel = panel.with(point.label("this study"));
     }
     Figure::single(panel)
@@ -67,9 +68,11 @@ fn of_one_mass(study: &SystemStudy, one: &OneMassStability, dither: &UnderDither
 /// Every eigenvalue in the complex plane; under dither those without it too.
 fn eigenvalues(study: &SystemStudy, done: &SlidingStability) -> Figure {
     let (frequency, factor) = frequency_axis(study, "|Im λ|");
-    let places = |motions: &[quell_linear::spectrum::SmallMotion]| -> Vec<(f64, f64)> {
+    let places = |motions: &[quell_linear::spectrum::SmallMotion]| -> Vec<PlotPoint> {
         let upper = motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
-        upper.map(|motion| (motion.eigenvalue.re, factor * motion.frequency())).collect()
+        upper
+            .map(|motion| PlotPoint::new(motion.eigenvalue.re, factor * motion.frequency()))
+            .collect()
     };
     let own = places(&done.spectrum.motions);
     let mut panel = Panel::new(growth_axis(study), frequency)
@@ -123,8 +126,8 @@ fn last_amplitude(belt: &Belt, largest: f64) -> f64 {
 fn between(
     critical: &[f64],
     end: f64,
-    value: impl Fn(f64) -> Option<(f64, f64)>,
-) -> Vec<Vec<(f64, f64)>> {
+    value: impl Fn(f64) -> Option<PlotPoint>,
+) -> Vec<Vec<PlotPoint>> {
     let inside = critical.iter().copied().filter(|amplitude| *amplitude < end);
     let bounds: Vec<f64> = [0.0].into_iter().chain(inside).chain([end]).collect();
     let piece = |ends: &[f64]| {
@@ -139,11 +142,11 @@ fn between(
 }
 
 /// The axis of the criterion, from the lowest to a multiple of the highest minimum of a piece.
-fn upwards(pieces: &[Vec<(f64, f64)>]) -> PlotAxis {
-    let lowest = pieces.iter().flatten().map(|point| point.1).fold(0.0, f64::min);
+fn upwards(pieces: &[Vec<PlotPoint>]) -> PlotAxis {
+    let lowest = pieces.iter().flatten().map(|point| point.y).fold(0.0, f64::min);
     // Beyond a jump the criterion falls from infinity: the axis shows the levels to which it falls.
     let low_of =
-        |piece: &Vec<(f64, f64)>| piece.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
+        |piece: &Vec<PlotPoint>| piece.iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
     let levels = pieces.iter().map(low_of).filter(|level| level.is_finite());
     let highest = 2.0 * levels.fold(0.5 * lowest.abs(), f64::max);
     let span = highest - lowest;

@@ -14,8 +14,8 @@ use crate::complaint::Failure;
 use crate::disc_units::DiscUnits;
 use crate::map::{FinishedMap, amplitude_and_other, boundaries_at};
 use crate::plot::{
-    Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotRole, Points,
-    Polyline, Size, Spread,
+    Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotPoint,
+    PlotRole, Points, Polyline, Size, Spread,
 };
 use crate::run::thresholds::curves::{self, CurvesRequest};
 use crate::status::Status;
@@ -149,8 +149,10 @@ fn doubtful(done: &FinishedMap, states: &[Status]) -> Vec<Layer> {
     let height = up.values.len();
     let marks = |status: Status| {
         let places = states.iter().enumerate().filter(|(_, state)| **state == status);
-        let points: Vec<(f64, f64)> = places
-            .map(|(point, _)| (across.values[point / height], up.values[point % height]))
+        let points: Vec<PlotPoint> = places
+            .map(|(point, _)| {
+                PlotPoint::new(across.values[point / height], up.values[point % height])
+            })
             .collect();
         (!points.is_empty()).then(|| {
             let crosses = Points::new(PlotRole::Guide, points).marker(Marker::Cross).size(2.6);
@@ -180,7 +182,7 @@ fn exact_curves(done: &FinishedMap) -> Vec<Layer> {
         let value = |index: usize| done.number(entry, place(index));
         let points = other.values.iter().enumerate().map(|(index, at)| {
             let value = value(index).unwrap_or(f64::NAN);
-            if upwards { (*at, value) } else { (value, *at) }
+            if upwards { PlotPoint::new(*at, value) } else { PlotPoint::new(value, *at) }
         });
         (vec![points.collect::<Vec<_>>()], "exact quench amplitude")
     } else {
@@ -204,11 +206,13 @@ fn exact_curves(done: &FinishedMap) -> Vec<Layer> {
 }
 
 /// Curves of thresholds in the plane of a map, in the units of its axes; none where the study has none.
-fn threshold_curves(grid: &Grid, request: &CurvesRequest) -> Vec<Vec<(f64, f64)>> {
+fn threshold_curves(grid: &Grid, request: &CurvesRequest) -> Vec<Vec<PlotPoint>> {
     let Ok(found) = curves::run(&grid.study().system(), request) else { return Vec::new() };
     let curves = found.found.curves.iter();
     curves
-        .map(|curve| curve.points.iter().map(|point| (point.along, point.value)).collect())
+        .map(|curve| {
+            curve.points.iter().map(|point| PlotPoint::new(point.along, point.value)).collect()
+        })
         .collect()
 }
 
@@ -223,12 +227,18 @@ fn over(done: &FinishedMap) -> Vec<Layer> {
     let furthest = amplitude.values.iter().copied().fold(0.0, f64::max);
     let found = boundaries_at(grid, &to_the_frame(other));
     let line = |averaging, becomes, label: &str| {
-        let points: Vec<Vec<(f64, f64)>> = found
+        let points: Vec<Vec<PlotPoint>> = found
             .iter()
             .filter(|boundary| boundary.averaging == averaging && boundary.becomes == becomes)
             .map(|boundary| {
                 let inside = boundary.points.iter().filter(|point| point.1 <= 1.2 * furthest);
-                inside.map(|&(at, d)| if upwards { (at, d) } else { (d, at) }).collect()
+                inside
+                    .map(
+                        |&(at, d)| {
+                            if upwards { PlotPoint::new(at, d) } else { PlotPoint::new(d, at) }
+                        },
+                    )
+                    .collect()
             })
             .collect();
         let (role, style) = match averaging {
@@ -311,10 +321,10 @@ fn panel(map: &FinishedMap, entry: &VariableArrays) -> Panel {
             .between(-0.1, last + 0.1)
             .ticks((0..words.len()).map(|code| code as f64).collect::<Vec<f64>>());
     }
-    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    let mut pieces: Vec<Vec<PlotPoint>> = vec![Vec::new()];
     for (point, place) in swept.values.iter().enumerate() {
         match (map.number(entry, point), pieces.last_mut()) {
-            (Some(value), Some(piece)) => piece.push((*place, value)),
+            (Some(value), Some(piece)) => piece.push(PlotPoint::new(*place, value)),
             (None, Some(piece)) if !piece.is_empty() => pieces.push(Vec::new()),
             _ => {}
         }
@@ -339,7 +349,7 @@ fn nothing(map: &FinishedMap, entry: &VariableArrays, swept: &GridAxis) -> Vec<L
         swept.values.iter().copied().fold((f64::INFINITY, f64::NEG_INFINITY), |ends, value| {
             (f64::min(ends.0, value), f64::max(ends.1, value))
         });
-    let spread = [(ends.0, 0.0), (ends.1, 1.0)];
+    let spread = [PlotPoint::new(ends.0, 0.0), PlotPoint::new(ends.1, 1.0)];
     vec![
         Polyline::new(PlotRole::Guide, spread).width(0.0).into(),
         Note::new(0.5 * (ends.0 + ends.1), 0.5, format!("no value: {}", reasons.join("; "))).into(),

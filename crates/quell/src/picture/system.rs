@@ -7,7 +7,8 @@ use quell_numerics::order::ascending_by;
 use super::frame::filled;
 use super::ruler::Ruler;
 use crate::plot::{
-    Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
+    Figure, Legend, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine,
+    Region,
 };
 use crate::run::system::reach::Reaches;
 use crate::run::system::tracked::TrackedStability;
@@ -50,21 +51,21 @@ pub(super) fn axis_of(
 
 /// Lower end of the axis of growth rates, where a few rates are far below all others.
 fn lowest_rate(done: &TrackedStability) -> Option<f64> {
-    let mut rates: Vec<(f64, f64)> = Vec::new();
+    let mut rates: Vec<PlotPoint> = Vec::new();
     for pair in done.tracked.pieces.iter().flat_map(|piece| piece.windows(2)) {
         let width = pair[1].value - pair[0].value;
-        rates.extend(pair[1].eigenvalues.iter().map(|z| (z.re, width)));
+        rates.extend(pair[1].eigenvalues.iter().map(|z| PlotPoint::new(z.re, width)));
     }
-    ascending_by(&mut rates, |a| a.0);
+    ascending_by(&mut rates, |a| a.x);
     let (lowest, highest) = rates.first().zip(rates.last())?;
-    let whole: f64 = rates.iter().map(|(_, width)| width).sum();
+    let whole: f64 = rates.iter().map(|PlotPoint { y: width, .. }| width).sum();
     let mut below = 0.0;
-    let usual = rates.iter().find(|(_, width)| {
+    let usual = rates.iter().find(|PlotPoint { y: width, .. }| {
         below += width;
         below >= HIDDEN * whole
     })?;
-    let length = highest.0 - usual.0;
-    (lowest.0 < usual.0 - length).then_some(usual.0 - MARGIN * length)
+    let length = highest.x - usual.x;
+    (lowest.x < usual.x - length).then_some(usual.x - MARGIN * length)
 }
 
 /// Frequency and growth rate of every motion over the parameter, with the thresholds.
@@ -73,8 +74,8 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
     let (from, to) = done.request.window;
     let (axis, ruler) = axis_of(study, &done.request.parameter, (from, to));
     let across = || axis.clone();
-    let branches = |pick: &dyn Fn(&num_complex::Complex64) -> Option<f64>| -> Vec<Vec<(f64, f64)>> {
-        let mut lines: BTreeMap<(usize, usize), Vec<(f64, f64)>> = BTreeMap::new();
+    let branches = |pick: &dyn Fn(&num_complex::Complex64) -> Option<f64>| -> Vec<Vec<PlotPoint>> {
+        let mut lines: BTreeMap<(usize, usize), Vec<PlotPoint>> = BTreeMap::new();
         for (index, piece) in done.tracked.pieces.iter().enumerate() {
             for point in piece {
                 for (branch, value) in point.eigenvalues.iter().enumerate() {
@@ -82,7 +83,7 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
                         lines
                             .entry((index, branch))
                             .or_default()
-                            .push((ruler.place(point.value), height));
+                            .push(PlotPoint::new(ruler.place(point.value), height));
                     }
                 }
             }
@@ -100,15 +101,16 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
         kinds.into_iter().fold(panel, |panel, (label, marker, changes)| {
             let found = done.tracked.thresholds.iter();
             let of_kind = found.filter(|at| (at.verdicts[0] != at.verdicts[1]) == changes);
-            let points: Vec<(f64, f64)> =
-                of_kind.map(|at| (ruler.place(at.value), height(at.eigenvalue))).collect();
+            let points: Vec<PlotPoint> = of_kind
+                .map(|at| PlotPoint::new(ruler.place(at.value), height(at.eigenvalue)))
+                .collect();
             if points.is_empty() {
                 return panel;
             }
             panel.with(Points::new(PlotRole::Exact, points).marker(marker).size(7.0).label(label))
         })
     };
-    let all = frequencies.iter().flatten().map(|(_, height)| *height);
+    let all = frequencies.iter().flatten().map(|PlotPoint { y: height, .. }| *height);
     let (least, greatest) =
         all.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), height| (a.min(height), b.max(height)));
     // Frequencies that are close to each other in comparison to their size are easier to distinguish without the origin.
@@ -133,11 +135,12 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
                 let verdicts = curve.points.first().map(|(_, found)| found.verdicts);
                 verdicts.is_some_and(|[before, beyond]| (before != beyond) == changes)
             });
-            let lines: Vec<Vec<(f64, f64)>> = of_kind
+            let lines: Vec<Vec<PlotPoint>> = of_kind
                 .map(|curve| {
                     let points = curve.points.iter();
-                    let placed = points
-                        .map(|(at, found)| (second_ruler.place(*at), ruler.place(found.value)));
+                    let placed = points.map(|(at, found)| {
+                        PlotPoint::new(second_ruler.place(*at), ruler.place(found.value))
+                    });
                     placed.collect()
                 })
                 .collect();
@@ -167,12 +170,9 @@ pub fn reach(study: &SystemStudy, done: &Reaches) -> Figure {
     let mut panel = Panel::new(frequency.log(), slip.log());
     for pair in &done.pairs {
         let contact = &study.system().contacts[pair.contact].name;
-        let points: Vec<(f64, f64)> = done
-            .frequencies
-            .iter()
-            .map(|w| factor * w)
-            .zip(pair.slip.iter().copied())
-            .filter(|(_, slip)| slip.is_finite() && *slip > 0.0)
+        let frequencies = done.frequencies.iter().map(|w| factor * w);
+        let points: Vec<PlotPoint> = PlotPoint::zip(frequencies, pair.slip.iter().copied())
+            .filter(|point| point.y.is_finite() && point.y > 0.0)
             .collect();
         if points.is_empty() {
             continue;

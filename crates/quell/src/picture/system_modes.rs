@@ -3,7 +3,8 @@
 use super::caption::caption;
 use super::ruler::short;
 use crate::plot::{
-    Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Sharing,
+    Figure, Legend, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, ReferenceLine,
+    Sharing,
 };
 use crate::run::system::modes::{SystemModes, natural};
 use crate::study::{SystemStudy, UnitSystem};
@@ -28,13 +29,13 @@ pub fn modes(study: &SystemStudy, done: &SystemModes) -> Figure {
             };
             let damping = short(motion.damping_ratio());
             let title = format!("({}) {}{unit}, $ζ$ = {damping}", place + 1, short(frequency));
-            let tips: Vec<(f64, f64)> = motion
+            let tips: Vec<PlotPoint> = motion
                 .shape
                 .iter()
                 .enumerate()
-                .map(|(coordinate, z)| ((coordinate + 1) as f64, z.re))
+                .map(|(coordinate, z)| PlotPoint::new((coordinate + 1) as f64, z.re))
                 .collect();
-            let stems = tips.iter().map(|&(at, value)| [(at, 0.0), (at, value)]);
+            let stems = tips.iter().map(|&tip| [PlotPoint::new(tip.x, 0.0), tip]);
             let ticks: Vec<f64> = if names.len() <= MOST_NAMES {
                 (1..=names.len()).map(|number| number as f64).collect()
             } else {

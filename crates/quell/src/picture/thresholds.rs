@@ -5,8 +5,8 @@ use super::caption::caption_of_varied;
 use super::frame::filled;
 use super::system::axis_of;
 use crate::plot::{
-    AxisRange, Figure, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotRole, Points,
-    Polyline, ReferenceLine, Region, Size,
+    AxisRange, Figure, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotPoint, PlotRole,
+    Points, Polyline, ReferenceLine, Region, Size,
 };
 use crate::run::thresholds::Thresholds;
 use crate::run::thresholds::curves::{AveragedBoundary, Curves};
@@ -22,7 +22,7 @@ pub fn thresholds(study: &SystemStudy, done: &Thresholds) -> Figure {
     let (across, ruler) = axis_of(study, &done.request.parameter, (from, to));
     let branch = done.local.as_ref().map_or(&[][..], |local| &local.branch);
     // The multipliers jump at grazing, and the curve has a gap there.
-    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    let mut pieces: Vec<Vec<PlotPoint>> = vec![Vec::new()];
     for (place, point) in branch.iter().enumerate() {
         let jumps =
             place.checked_sub(1).and_then(|before| branch.get(before)).is_some_and(|before| {
@@ -32,10 +32,10 @@ pub fn thresholds(study: &SystemStudy, done: &Thresholds) -> Figure {
             pieces.push(Vec::new());
         }
         if let Some(piece) = pieces.last_mut() {
-            piece.push((ruler.place(point.value), point.radius));
+            piece.push(PlotPoint::new(ruler.place(point.value), point.radius));
         }
     }
-    let radii = || pieces.iter().flatten().map(|point| point.1);
+    let radii = || pieces.iter().flatten().map(|point| point.y);
     let (low, high) = (radii().fold(1.0, f64::min), radii().fold(1.0, f64::max));
     let room = 0.15 * (high - low).max(1e-3);
     let modulus =
@@ -46,9 +46,9 @@ pub fn thresholds(study: &SystemStudy, done: &Thresholds) -> Figure {
         .with(Polyline::pieces(PlotRole::Exact, pieces));
     for kind in ThresholdKind::ALL {
         let found = done.local.iter().flat_map(|local| &local.thresholds);
-        let places: Vec<(f64, f64)> = found
+        let places: Vec<PlotPoint> = found
             .filter(|threshold| threshold.kind == kind)
-            .map(|threshold| (ruler.place(threshold.value), 1.0))
+            .map(|threshold| PlotPoint::new(ruler.place(threshold.value), 1.0))
             .collect();
         if !places.is_empty() {
             let marker = if kind == ThresholdKind::Grazing { Marker::Circle } else { Marker::Disc };
@@ -82,7 +82,7 @@ pub fn curves(study: &SystemStudy, done: &Curves) -> Figure {
     let request = &done.request;
     let (x, across) = axis_of(study, &request.along, request.between);
     let (y, up) = axis_of(study, &request.parameter, request.window);
-    let place = |(along, value): (f64, f64)| (across.place(along), up.place(value));
+    let place = |(along, value): (f64, f64)| PlotPoint::new(across.place(along), up.place(value));
     let panel = with_curves(Panel::new(x, y), &done.averaged, &done.found.curves, place);
     Figure::single(panel.legend(Legend::Above))
         .size(Size::Frame(380.0, 300.0))
@@ -119,7 +119,7 @@ fn with_curves(
     mut panel: Panel,
     averaged: &[AveragedBoundary],
     curves: &[ThresholdCurve],
-    place: impl Fn((f64, f64)) -> (f64, f64),
+    place: impl Fn((f64, f64)) -> PlotPoint,
 ) -> Panel {
     for boundary in averaged {
         let (label, style) = if boundary.limit {
@@ -130,7 +130,7 @@ fn with_curves(
         // Wide enough to be seen under an exact curve that coincides with it.
         let width = 2.6;
         let pieces = boundary.pieces.iter().map(|piece| piece.iter().copied().map(&place));
-        let pieces: Vec<Vec<(f64, f64)>> = pieces.map(Iterator::collect).collect();
+        let pieces: Vec<Vec<PlotPoint>> = pieces.map(Iterator::collect).collect();
         if !pieces.is_empty() {
             panel = panel.with(
                 Polyline::pieces(PlotRole::Averaged, pieces).style(style).width(width).label(label),
@@ -138,7 +138,7 @@ fn with_curves(
         }
     }
     for (number, kind) in ThresholdKind::ALL.into_iter().enumerate() {
-        let pieces: Vec<Vec<(f64, f64)>> = curves
+        let pieces: Vec<Vec<PlotPoint>> = curves
             .iter()
             .filter(|curve| curve.kind == kind)
             .map(|curve| {

@@ -4,7 +4,9 @@ use quell_numerics::order::ascending_by;
 
 use super::caption::caption;
 use super::ruler::Ruler;
-use crate::plot::{Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend};
+use crate::plot::{
+    Figure, Marker, Panel, PlotAxis, PlotPoint, PlotRole, Points, Polyline, SharedLegend,
+};
 use crate::run::waveforms::{COLUMNS, CostColumn, RankedBy, WaveformComparison};
 use crate::study::SystemStudy;
 
@@ -85,9 +87,10 @@ fn panel(panel: &CostPanel<'_>) -> Panel {
     // Bursts of the carrier, and the carrier itself, which acts all the time.
     let over_duty = |of: fn(&CostMark) -> Option<f64>| {
         let own = marks.iter().filter(|mark| mark.of_carrier);
-        let mut points: Vec<(f64, f64)> =
-            own.filter_map(|mark| Some((mark.duty_cycle, ruler.place(of(mark)?)))).collect();
-        ascending_by(&mut points, |a| a.0);
+        let mut points: Vec<PlotPoint> = own
+            .filter_map(|mark| Some(PlotPoint::new(mark.duty_cycle, ruler.place(of(mark)?))))
+            .collect();
+        ascending_by(&mut points, |a| a.x);
         points
     };
     let bursts = over_duty(|mark| mark.value);
@@ -109,7 +112,8 @@ fn panel(panel: &CostPanel<'_>) -> Panel {
     for (number, mark) in marks.iter().filter(|mark| !mark.of_carrier).enumerate() {
         let Some(value) = mark.value else { continue };
         let (marker, size) = markers[number % markers.len()];
-        let points = Points::new(PlotRole::Printed, [(1.0, ruler.place(value))]).marker(marker);
+        let points = Points::new(PlotRole::Printed, [PlotPoint::new(1.0, ruler.place(value))])
+            .marker(marker);
         panel = panel.with(points.size(size).label(mark.label.clone()));
     }
     let averaged = over_duty(|mark| mark.averaged);

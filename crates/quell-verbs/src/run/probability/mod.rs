@@ -376,10 +376,10 @@ fn growth(
 }
 
 impl SampledGrowth {
-    /// Growth rates times a factor with the share of the samples up to each, at most `points` of them.
-    pub fn distribution(&self, points: usize, factor: f64) -> Vec<(f64, f64)> {
+    /// Growth rates times a factor, and the share of the samples up to each, at most `points` of them.
+    pub fn distribution(&self, points: usize, factor: f64) -> (Vec<f64>, Vec<f64>) {
         let shares = super::evenly((0.0, 1.0), points);
         let at = |share: f64| Some((factor * quantile(&self.rates, share)?, share));
-        shares.into_iter().filter_map(at).collect()
+        shares.into_iter().filter_map(at).unzip()
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use quell_design::actuator::Actuator;
 use quell_model::units::Quantity;
 
-use crate::plot::{LineStyle, SketchInk, SketchKey, SketchPart, SketchShape};
+use crate::plot::{FrameSize, LineStyle, PlotPoint, SketchInk, SketchKey, SketchPart, SketchShape};
 use crate::words::{capital, digits};
 
 /// Width of the drawing.
@@ -15,12 +15,12 @@ const HALF: f64 = 7.0;
 /// Corners of the circle of a motor.
 const CORNERS: u32 = 24;
 
-fn line(points: Vec<(f64, f64)>) -> SketchShape {
+fn line(points: Vec<PlotPoint>) -> SketchShape {
     SketchShape::Line { points, style: LineStyle::Solid }
 }
 
 /// The actuator between the driven point on the left, at `from`, and the ground on the right.
-pub(super) fn drawn((left, level): (f64, f64), actuator: &Actuator) -> SketchPart {
+pub(super) fn drawn(PlotPoint { x: left, y: level }: PlotPoint, actuator: &Actuator) -> SketchPart {
     let end = left + WIDTH;
     let body = match actuator {
         Actuator::Piezo(_) => stack(left, level),
@@ -28,8 +28,10 @@ pub(super) fn drawn((left, level): (f64, f64), actuator: &Actuator) -> SketchPar
         Actuator::Motor(_) => motor(left, level),
         Actuator::Measured(_) => measured(left, level),
     };
-    let ground =
-        SketchShape::Ground { from: (end, level - HALF - 4.0), to: (end, level + HALF + 4.0) };
+    let ground = SketchShape::Ground {
+        from: PlotPoint::new(end, level - HALF - 4.0),
+        to: PlotPoint::new(end, level + HALF + 4.0),
+    };
     let part =
         SketchPart::new("actuator", actuator.kind().in_words(), ground).ink(SketchInk::Input);
     body.into_iter().fold(part, SketchPart::and)
@@ -37,10 +39,13 @@ pub(super) fn drawn((left, level): (f64, f64), actuator: &Actuator) -> SketchPar
 
 /// Discs on each other.
 fn stack(left: f64, level: f64) -> Vec<SketchShape> {
-    let block = SketchShape::Block { corner: (left, level - HALF), size: (WIDTH, 2.0 * HALF) };
+    let block = SketchShape::Block {
+        corner: PlotPoint::new(left, level - HALF),
+        size: FrameSize::new(WIDTH, 2.0 * HALF),
+    };
     let discs = (1..6).map(|k| {
         let x = left + WIDTH * f64::from(k) / 6.0;
-        line(vec![(x, level - HALF), (x, level + HALF)])
+        line(vec![PlotPoint::new(x, level - HALF), PlotPoint::new(x, level + HALF)])
     });
     [block].into_iter().chain(discs).collect()
 }
@@ -49,16 +54,16 @@ fn stack(left: f64, level: f64) -> Vec<SketchShape> {
 fn coil(left: f64, level: f64) -> Vec<SketchShape> {
     let (inner, end) = (left + 8.0, left + WIDTH);
     let magnet = line(vec![
-        (inner, level - HALF),
-        (end, level - HALF),
-        (end, level + HALF),
-        (inner, level + HALF),
+        PlotPoint::new(inner, level - HALF),
+        PlotPoint::new(end, level - HALF),
+        PlotPoint::new(end, level + HALF),
+        PlotPoint::new(inner, level + HALF),
     ]);
     let turns = (0..4).map(|k| {
         let x = inner + 1.0 + 4.0 * f64::from(k);
-        line(vec![(x, level + 4.0), (x + 3.0, level - 4.0)])
+        line(vec![PlotPoint::new(x, level + 4.0), PlotPoint::new(x + 3.0, level - 4.0)])
     });
-    let rod = line(vec![(left, level), (inner + 1.0, level)]);
+    let rod = line(vec![PlotPoint::new(left, level), PlotPoint::new(inner + 1.0, level)]);
     [magnet, rod].into_iter().chain(turns).collect()
 }
 
@@ -68,22 +73,30 @@ fn motor(left: f64, level: f64) -> Vec<SketchShape> {
     let centre = left + WIDTH - radius - 4.0;
     let corner = |k: u32| {
         let (sin, cos) = libm::sincos(TAU * f64::from(k) / f64::from(CORNERS));
-        (centre + radius * cos, level + radius * sin)
+        PlotPoint::new(centre + radius * cos, level + radius * sin)
     };
-    let shaft = line(vec![(left, level), (centre - radius, level)]);
-    let foot = line(vec![(centre + radius, level), (left + WIDTH, level)]);
-    let turn = SketchShape::Turn { centre: (centre, level), radius: 4.5, angles: (300.0, 30.0) };
+    let shaft = line(vec![PlotPoint::new(left, level), PlotPoint::new(centre - radius, level)]);
+    let foot =
+        line(vec![PlotPoint::new(centre + radius, level), PlotPoint::new(left + WIDTH, level)]);
+    let turn = SketchShape::Turn {
+        centre: PlotPoint::new(centre, level),
+        radius: 4.5,
+        angles: (300.0, 30.0),
+    };
     vec![line((0..=CORNERS).map(corner).collect()), shaft, foot, turn]
 }
 
 /// A box with a resonance.
 fn measured(left: f64, level: f64) -> Vec<SketchShape> {
-    let block = SketchShape::Block { corner: (left, level - HALF), size: (WIDTH, 2.0 * HALF) };
+    let block = SketchShape::Block {
+        corner: PlotPoint::new(left, level - HALF),
+        size: FrameSize::new(WIDTH, 2.0 * HALF),
+    };
     let heights = [3.0, 2.5, 1.0, -5.0, 1.0, 4.0];
     let curve = heights
         .iter()
         .zip(0..)
-        .map(|(height, k)| (left + 3.0 + 4.8 * f64::from(k), level + height));
+        .map(|(height, k)| PlotPoint::new(left + 3.0 + 4.8 * f64::from(k), level + height));
     vec![block, line(curve.collect())]
 }
 

@@ -9,7 +9,10 @@ use super::contact_state::StateMark;
 use super::symbols::{glyph, index, indexed, item, law_items, number, wave_items};
 use crate::noise::band_in_words;
 use crate::picture::ruler::words;
-use crate::plot::{LabelSide, Sketch, SketchInk, SketchKey, SketchPart, SketchShape};
+use crate::plot::{
+    FrameSize, LabelSide, PlotPoint, PlotRange, Sketch, SketchInk, SketchKey, SketchPart,
+    SketchShape,
+};
 use crate::study::BeltStudy;
 
 use LabelSide::{Above, Below, Inside, Left, Right};
@@ -47,14 +50,28 @@ pub(super) fn draw(sheet: Sketch, study: &BeltStudy) -> Sketch {
 
 fn structure(sheet: Sketch, study: &BeltStudy, height: f64) -> Sketch {
     let si = study.scales().is_some();
-    let wall = SketchShape::Ground { from: (0.0, height + 2.0), to: (0.0, -2.0) };
-    let mass = SketchShape::Block { corner: (MASS, 0.0), size: (WIDTH, height) };
-    let spring = SketchShape::Spring { from: (0.0, 9.0), to: (MASS, 9.0) };
-    let damper = SketchShape::Damper { from: (0.0, 27.0), to: (MASS, 27.0) };
+    let wall = SketchShape::Ground {
+        from: PlotPoint::new(0.0, height + 2.0),
+        to: PlotPoint::new(0.0, -2.0),
+    };
+    let mass = SketchShape::Block {
+        corner: PlotPoint::new(MASS, 0.0),
+        size: FrameSize::new(WIDTH, height),
+    };
+    let spring =
+        SketchShape::Spring { from: PlotPoint::new(0.0, 9.0), to: PlotPoint::new(MASS, 9.0) };
+    let damper =
+        SketchShape::Damper { from: PlotPoint::new(0.0, 27.0), to: PlotPoint::new(MASS, 27.0) };
     let (m, k, c) = if si { ("$m$", "$k$", "$c$") } else { ("1", "1", "$2ζ$") };
-    let way = SketchShape::Arrow { from: (MASS + 0.5 * WIDTH, -9.0), to: (MASS + WIDTH, -9.0) };
+    let way = SketchShape::Arrow {
+        from: PlotPoint::new(MASS + 0.5 * WIDTH, -9.0),
+        to: PlotPoint::new(MASS + WIDTH, -9.0),
+    };
     let foot = SketchShape::Line {
-        points: vec![(MASS + 0.5 * WIDTH, -13.0), (MASS + 0.5 * WIDTH, -5.0)],
+        points: vec![
+            PlotPoint::new(MASS + 0.5 * WIDTH, -13.0),
+            PlotPoint::new(MASS + 0.5 * WIDTH, -5.0),
+        ],
         style: crate::plot::LineStyle::Solid,
     };
     sheet
@@ -78,15 +95,23 @@ fn structure(sheet: Sketch, study: &BeltStudy, height: f64) -> Sketch {
 fn contact(sheet: Sketch, study: &BeltStudy, letters: &Letters, height: f64) -> Sketch {
     let mark = StateMark::of(study.belt().friction(), study.belt().tangential_stiffness());
     let top = height + mark.map_or(0.0, StateMark::height);
-    let belt = SketchShape::Belt { ends: (MASS - 46.0, MASS + WIDTH + 66.0), top, radius: 11.0 };
-    let velocity = SketchShape::Arrow {
-        from: (MASS + WIDTH + 16.0, top - 6.0),
-        to: (MASS + WIDTH + 46.0, top - 6.0),
+    let belt = SketchShape::Belt {
+        ends: PlotRange::new(MASS - 46.0, MASS + WIDTH + 66.0),
+        top,
+        radius: 11.0,
     };
-    let load =
-        SketchShape::Arrow { from: (MASS + 0.25 * WIDTH, -34.0), to: (MASS + 0.25 * WIDTH, -1.0) };
-    let friction =
-        SketchShape::Arrow { from: (MASS - 24.0, height - 6.0), to: (MASS - 1.0, height - 6.0) };
+    let velocity = SketchShape::Arrow {
+        from: PlotPoint::new(MASS + WIDTH + 16.0, top - 6.0),
+        to: PlotPoint::new(MASS + WIDTH + 46.0, top - 6.0),
+    };
+    let load = SketchShape::Arrow {
+        from: PlotPoint::new(MASS + 0.25 * WIDTH, -34.0),
+        to: PlotPoint::new(MASS + 0.25 * WIDTH, -1.0),
+    };
+    let friction = SketchShape::Arrow {
+        from: PlotPoint::new(MASS - 24.0, height - 6.0),
+        to: PlotPoint::new(MASS - 1.0, height - 6.0),
+    };
     let ink = SketchInk::Contact;
     let within = (MASS + 8.0, MASS + WIDTH - 10.0);
     let sheet = match mark {
@@ -123,23 +148,25 @@ fn dithers(mut sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
             Direction::Tangential => {
                 let level = 12.0 + ROW * rows;
                 rows += 1.0;
-                let from = (MASS + WIDTH + 1.0, level);
-                let to = (MASS + WIDTH + 27.0, level);
-                (SketchShape::Arrow { from, to }, (to.0 + 13.0, level))
+                let from = PlotPoint::new(MASS + WIDTH + 1.0, level);
+                let to = PlotPoint::new(MASS + WIDTH + 27.0, level);
+                (SketchShape::Arrow { from, to }, PlotPoint::new(to.x + 13.0, level))
             }
             Direction::Normal => {
                 let across = MASS + 0.25 * WIDTH + 22.0 + 46.0 * columns;
                 columns += 1.0;
                 // The vertical arrow is next to that of the load and ends above the mass.
-                let arrow =
-                    SketchShape::Arrow { from: (across - 12.0, -40.0), to: (across - 12.0, -16.0) };
-                (arrow, (across, -32.0))
+                let arrow = SketchShape::Arrow {
+                    from: PlotPoint::new(across - 12.0, -40.0),
+                    to: PlotPoint::new(across - 12.0, -16.0),
+                };
+                (arrow, PlotPoint::new(across, -32.0))
             }
         };
         let given = study.kind().system().actuator();
         let given = given.filter(|_| place == 0 && dither.direction == Direction::Tangential);
         if let Some(actuator) = given {
-            sheet = sheet.with(actuator::drawn((wave.0 + 13.0, wave.1), actuator));
+            sheet = sheet.with(actuator::drawn(PlotPoint::new(wave.x + 13.0, wave.y), actuator));
         }
         let sides = if given.is_some() { [Above, Below] } else { [Right, Above] };
         let wave = SketchShape::Wave { at: wave, glyph: glyph(&dither.waveform) };

@@ -2,7 +2,9 @@
 
 use quell_model::Friction;
 
-use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
+use crate::plot::{
+    FrameSize, LabelSide, LineStyle, PlotPoint, Sketch, SketchInk, SketchPart, SketchShape,
+};
 
 /// Height of an elastic slider and of bristles.
 const SLIDER: f64 = 17.0;
@@ -12,7 +14,7 @@ const COUNT: u8 = 6;
 const PITCH: f64 = 5.0;
 const LEAN: f64 = 4.0;
 /// Size of the shoe of a slider.
-const SHOE: (f64, f64) = (9.0, 10.0);
+const SHOE: FrameSize = FrameSize::new(9.0, 10.0);
 
 /// What a contact has between its body and its surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,10 +54,16 @@ impl StateMark {
         match self {
             Self::Slider => {
                 let bottom = top + SLIDER;
-                let level = bottom - 0.5 * SHOE.1;
-                let shoe = SketchShape::Block { corner: (from, bottom - SHOE.1), size: SHOE };
-                let spring = SketchShape::Spring { from: (from + SHOE.0, level), to: (to, level) };
-                let foot = vec![(to, top), (to, level)];
+                let level = bottom - 0.5 * SHOE.height;
+                let shoe = SketchShape::Block {
+                    corner: PlotPoint::new(from, bottom - SHOE.height),
+                    size: SHOE,
+                };
+                let spring = SketchShape::Spring {
+                    from: PlotPoint::new(from + SHOE.width, level),
+                    to: PlotPoint::new(to, level),
+                };
+                let foot = vec![PlotPoint::new(to, top), PlotPoint::new(to, level)];
                 let foot = SketchShape::Line { points: foot, style: LineStyle::Solid };
                 sheet
                     .with(SketchPart::new("shoe", format!("shoe{of}, which slides"), shoe).ink(ink))
@@ -74,7 +82,10 @@ impl StateMark {
                 let middle = 0.5 * (from + to);
                 let shape = |place: u8| {
                     let at = middle + PITCH * (f64::from(place) - 0.5 * f64::from(COUNT - 1));
-                    let points = vec![(at + 0.5 * LEAN, top), (at - 0.5 * LEAN, top + BRISTLES)];
+                    let points = vec![
+                        PlotPoint::new(at + 0.5 * LEAN, top),
+                        PlotPoint::new(at - 0.5 * LEAN, top + BRISTLES),
+                    ];
                     SketchShape::Line { points, style: LineStyle::Solid }
                 };
                 let first = SketchPart::new("bristles", format!("bristles{of}"), shape(0));

@@ -10,7 +10,9 @@ use quell_model::profile::Profile;
 
 use super::disc_load::{SECTION_WIDTH, section};
 use super::symbols::{further, index, indexed, law_items, measured, number, wave_items};
-use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchKey, SketchPart, SketchShape};
+use crate::plot::{
+    LabelSide, LineStyle, PlotPoint, Sketch, SketchInk, SketchKey, SketchPart, SketchShape,
+};
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
 use crate::words::{capital, counted};
@@ -54,7 +56,7 @@ fn plan(sheet: Sketch, study: &DiscStudy) -> Sketch {
         ModeSource::Plate(plate) => plate.plate.inner_radius_ratio(),
         _ => TYPICAL.0,
     };
-    let centre = (0.0, 0.0);
+    let centre = PlotPoint::new(0.0, 0.0);
     let ring = SketchShape::Ring { centre, radii: (RADIUS, RADIUS * inner) };
     let mut sheet = sheet.with(SketchPart::new("disc", "annular disc", ring));
     let count = disc.loads().len();
@@ -62,7 +64,10 @@ fn plan(sheet: Sketch, study: &DiscStudy) -> Sketch {
         let at = RADIUS * radius.unwrap_or(0.5 * (1.0 + inner).max(TYPICAL.1));
         let degrees = load.angle.to_degrees();
         let point = |radius: f64| {
-            (centre.0 + radius * load.angle.cos(), centre.1 - radius * load.angle.sin())
+            PlotPoint::new(
+                centre.x + radius * load.angle.cos(),
+                centre.y - radius * load.angle.sin(),
+            )
         };
         let name = format!("load {} at {}°", place + 1, number(degrees));
         let spoke = SketchShape::Line {

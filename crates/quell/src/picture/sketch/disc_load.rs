@@ -4,7 +4,7 @@ use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load};
 
 use super::symbols::{glyph, indexed};
-use crate::plot::{LabelSide, Sketch, SketchInk, SketchPart, SketchShape};
+use crate::plot::{FrameSize, LabelSide, PlotPoint, Sketch, SketchInk, SketchPart, SketchShape};
 
 use LabelSide::{Above, Below, Inside, Left, Right};
 
@@ -30,7 +30,10 @@ struct Stage {
 /// Draws the section of a load with this index, with its left end at `left`.
 pub(super) fn section(sheet: Sketch, disc: &Disc, load: &Load, index: &str, left: f64) -> Sketch {
     let middle = left + 66.0;
-    let strip = SketchShape::Block { corner: (left + 12.0, DISC), size: (108.0, 9.0) };
+    let strip = SketchShape::Block {
+        corner: PlotPoint::new(left + 12.0, DISC),
+        size: FrameSize::new(108.0, 9.0),
+    };
     let sheet = sheet.with(SketchPart::new("disc", "disc in section", strip));
     let sheet = chain(sheet, load, index, middle);
     forces(sheet, disc, load, index, middle)
@@ -69,11 +72,16 @@ fn chain(mut sheet: Sketch, load: &Load, index: &str, middle: f64) -> Sketch {
     for stage in stages {
         if let Some((label, name)) = stage.body {
             level -= BODY;
-            let shape = SketchShape::Block { corner: (middle - 24.0, level), size: (48.0, BODY) };
+            let shape = SketchShape::Block {
+                corner: PlotPoint::new(middle - 24.0, level),
+                size: FrameSize::new(48.0, BODY),
+            };
             sheet = sheet.with(SketchPart::new("mass", name, shape).label(label, &[Inside]));
         }
-        let line = |across: f64| ((middle + across, level), (middle + across, level - SPRING));
-        let ((from, to), (rod, cylinder)) = (line(-APART), line(APART));
+        let line = |across: f64| {
+            [level, level - SPRING].map(|level| PlotPoint::new(middle + across, level))
+        };
+        let ([from, to], [rod, cylinder]) = (line(-APART), line(APART));
         let (spring, damper) =
             (SketchShape::Spring { from, to }, SketchShape::Damper { from: rod, to: cylinder });
         let (of_spring, of_damper) =
@@ -83,15 +91,20 @@ fn chain(mut sheet: Sketch, load: &Load, index: &str, middle: f64) -> Sketch {
             .with(SketchPart::new("damper", of_damper, damper).label(stage.damper, &[Right]));
         level -= SPRING;
     }
-    let support = SketchShape::Ground { from: (middle - 28.0, level), to: (middle + 28.0, level) };
+    let support = SketchShape::Ground {
+        from: PlotPoint::new(middle - 28.0, level),
+        to: PlotPoint::new(middle + 28.0, level),
+    };
     sheet.with(SketchPart::new("ground", "support", support))
 }
 
 /// Friction, normal load and dither at the contact.
 fn forces(sheet: Sketch, disc: &Disc, load: &Load, index: &str, middle: f64) -> Sketch {
     let below = DISC + 9.0;
-    let friction =
-        SketchShape::Arrow { from: (middle + 4.0, below + 8.0), to: (middle + 40.0, below + 8.0) };
+    let friction = SketchShape::Arrow {
+        from: PlotPoint::new(middle + 4.0, below + 8.0),
+        to: PlotPoint::new(middle + 40.0, below + 8.0),
+    };
     let part = SketchPart::new("friction", "friction force on the disc", friction);
     let part = part
         .ink(SketchInk::Contact)
@@ -104,8 +117,8 @@ fn forces(sheet: Sketch, disc: &Disc, load: &Load, index: &str, middle: f64) -> 
     };
     if let Some((name, label)) = pressing {
         let shape = SketchShape::Arrow {
-            from: (middle - 40.0, DISC - 26.0),
-            to: (middle - 40.0, DISC - 1.0),
+            from: PlotPoint::new(middle - 40.0, DISC - 26.0),
+            to: PlotPoint::new(middle - 40.0, DISC - 1.0),
         };
         let part = SketchPart::new("load", name, shape).ink(SketchInk::Contact);
         sheet = sheet.with(part.label(label, &[Left, Above]));
@@ -115,8 +128,10 @@ fn forces(sheet: Sketch, disc: &Disc, load: &Load, index: &str, middle: f64) -> 
         DiscDither::Normal { .. } => "normal dither of the friction force",
         DiscDither::Tangential { .. } => "tangential dither of the friction force",
     };
-    let shape =
-        SketchShape::Wave { at: (middle - 16.0, below + 8.0), glyph: glyph(disc.waveform()) };
+    let shape = SketchShape::Wave {
+        at: PlotPoint::new(middle - 16.0, below + 8.0),
+        glyph: glyph(disc.waveform()),
+    };
     let part = SketchPart::new("dither", name, shape).ink(SketchInk::Input);
     sheet.with(part.label("$α$, $R$", &[Left, Below]))
 }

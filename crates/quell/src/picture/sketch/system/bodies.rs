@@ -2,14 +2,16 @@
 
 use super::body::BodyKind;
 use super::drawing::SystemDrawing;
-use crate::plot::{LabelSide, Sketch, SketchPart, SketchShape};
+use crate::plot::{FrameSize, LabelSide, PlotPoint, Sketch, SketchPart, SketchShape};
 
 /// Draws the bodies.
 pub(super) fn draw(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     for (place, body) in drawing.bodies.iter().enumerate() {
         let seat = drawing.grid.seat(place);
-        let shape =
-            SketchShape::Block { corner: (seat.left, seat.top), size: (seat.width, seat.height) };
+        let shape = SketchShape::Block {
+            corner: PlotPoint::new(seat.left, seat.top),
+            size: FrameSize::new(seat.width, seat.height),
+        };
         let (class, name) = match body.kind {
             BodyKind::Mass => ("mass", body.name.clone()),
             BodyKind::State => ("state", format!("state {}", body.name)),
@@ -33,10 +35,12 @@ fn resonators(mut part: SketchPart, middle: f64, top: f64, count: usize) -> Sket
     let drawn = count.min(3);
     for place in 0..drawn {
         let across = middle + 24.0 * (place as f64 - 0.5 * (drawn as f64 - 1.0));
-        let (from, to) = ((across, top), (across, top - 22.0));
+        let [from, to] = [top, top - 22.0].map(|level| PlotPoint::new(across, level));
         part = part.and(SketchShape::Spring { from, to });
-        part =
-            part.and(SketchShape::Block { corner: (across - 6.0, top - 31.0), size: (12.0, 9.0) });
+        part = part.and(SketchShape::Block {
+            corner: PlotPoint::new(across - 6.0, top - 31.0),
+            size: FrameSize::new(12.0, 9.0),
+        });
     }
     part
 }

@@ -7,7 +7,10 @@ use super::contact_place::{PAD, ROD, SPRING, home, is_compliant, mark, state_hei
 use super::drawing::SystemDrawing;
 use super::grid::BodySeat;
 use crate::picture::sketch::symbols::{index, indexed};
-use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
+use crate::plot::{
+    FrameSize, LabelSide, LineStyle, PlotPoint, PlotRange, Sketch, SketchInk, SketchPart,
+    SketchShape,
+};
 use crate::words::counted;
 
 use LabelSide::{Above, Below, Left, Right};
@@ -94,22 +97,25 @@ fn one(
     let normal = contact.normal.as_deref().map(|row| drawing.touched(row)).unwrap_or_default();
     let is_own = normal.iter().any(|(touched, _)| *touched == body);
     let drawn_at = normal.iter().find(|(other, _)| reaches(drawing, (body, *other), pad));
-    let block = SketchShape::Block { corner: (across - 14.0, pad), size: (28.0, PAD) };
+    let block = SketchShape::Block {
+        corner: PlotPoint::new(across - 14.0, pad),
+        size: FrameSize::new(28.0, PAD),
+    };
     let mut part = SketchPart::new("contact", format!("contact {}", contact.name), block).ink(ink);
     let mut sheet = sheet;
     if is_compliant(contact) && (is_own || drawn_at.is_none()) {
         sheet = stiffness(sheet, contact, (across, seat.bottom(), pad), index);
     } else {
-        let points = vec![(across, seat.bottom()), (across, pad)];
+        let points = vec![PlotPoint::new(across, seat.bottom()), PlotPoint::new(across, pad)];
         part = part.and(SketchShape::Line { points, style: LineStyle::Solid });
     }
     sheet = sheet.with(part);
     let spring_at = drawn_at.filter(|_| !is_own && is_compliant(contact)).map(|(other, _)| *other);
     for (other, _) in normal.iter().filter(|(touched, _)| *touched != body) {
         sheet = if spring_at == Some(*other) {
-            approach(sheet, drawing, contact, *other, (across, pad), index)
+            approach(sheet, drawing, contact, *other, PlotPoint::new(across, pad), index)
         } else {
-            lead(sheet, drawing, contact, (body, *other), (across, pad))
+            lead(sheet, drawing, contact, (body, *other), PlotPoint::new(across, pad))
         };
     }
     let mut met: Vec<usize> = normal.iter().map(|(touched, _)| *touched).collect();
@@ -117,7 +123,7 @@ fn one(
         for (other, _) in drawing.touched(row).into_iter().filter(|(touched, _)| *touched != body) {
             if !met.contains(&other) {
                 met.push(other);
-                sheet = lead(sheet, drawing, contact, (body, other), (across, pad));
+                sheet = lead(sheet, drawing, contact, (body, other), PlotPoint::new(across, pad));
             }
         }
     }
@@ -130,7 +136,12 @@ fn one(
         let of = format!(" of contact {}", contact.name);
         sheet = mark.draw(sheet, within, pad + PAD, (&of, &tangential_symbol(index)));
     }
-    loads(sheet, (across, pad + PAD + state_height(contact)), contact, (index, from_left))
+    loads(
+        sheet,
+        PlotPoint::new(across, pad + PAD + state_height(contact)),
+        contact,
+        (index, from_left),
+    )
 }
 
 /// The spring and damper of a compliant contact, from `top` to `bottom`.
@@ -142,7 +153,10 @@ fn stiffness(
 ) -> Sketch {
     let has_damper = contact.normal_damping != 0.0;
     let apart = if has_damper { 8.0 } else { 0.0 };
-    let shape = SketchShape::Spring { from: (across - apart, top), to: (across - apart, bottom) };
+    let shape = SketchShape::Spring {
+        from: PlotPoint::new(across - apart, top),
+        to: PlotPoint::new(across - apart, bottom),
+    };
     let name = format!("normal stiffness of contact {}", contact.name);
     let label = stiffness_symbol(index);
     let sheet = sheet.with(
@@ -153,7 +167,10 @@ fn stiffness(
     if !has_damper {
         return sheet;
     }
-    let shape = SketchShape::Damper { from: (across + apart, top), to: (across + apart, bottom) };
+    let shape = SketchShape::Damper {
+        from: PlotPoint::new(across + apart, top),
+        to: PlotPoint::new(across + apart, bottom),
+    };
     let name = format!("normal damping of contact {}", contact.name);
     let label = indexed("d", index);
     sheet.with(
@@ -186,7 +203,7 @@ fn approach(
     drawing: &SystemDrawing<'_>,
     contact: &Contact,
     other: usize,
-    (across, pad): (f64, f64),
+    PlotPoint { x: across, y: pad }: PlotPoint,
     index: &str,
 ) -> Sketch {
     let far = drawing.grid.seat(other);
@@ -194,7 +211,11 @@ fn approach(
     let corner = far.middle() - sign * 0.3 * far.width;
     let level = pad + 0.5 * PAD;
     let sheet = stiffness(sheet, contact, (corner, far.bottom(), pad - 2.0), index);
-    let points = vec![(corner, pad - 2.0), (corner, level), (across + sign * 14.0, level)];
+    let points = vec![
+        PlotPoint::new(corner, pad - 2.0),
+        PlotPoint::new(corner, level),
+        PlotPoint::new(across + sign * 14.0, level),
+    ];
     let shape = SketchShape::Line { points, style: LineStyle::Solid };
     let name = format!("approach of contact {}", contact.name);
     sheet.with(SketchPart::new("guide", name, shape).ink(SketchInk::Contact))
@@ -206,24 +227,34 @@ fn lead(
     drawing: &SystemDrawing<'_>,
     contact: &Contact,
     (body, other): (usize, usize),
-    (across, pad): (f64, f64),
+    PlotPoint { x: across, y: pad }: PlotPoint,
 ) -> Sketch {
     let (seat, far) = (drawing.grid.seat(body), drawing.grid.seat(other));
     let name = format!("contact {} acts on {}", contact.name, drawing.bodies[other].name);
     let is_next = seat.row == far.row && seat.column.abs_diff(far.column) == 1;
     if !is_next {
         let shape = SketchShape::Line {
-            points: vec![(far.left + 14.0, far.bottom()), (far.left + 14.0, far.bottom() + 8.0)],
+            points: vec![
+                PlotPoint::new(far.left + 14.0, far.bottom()),
+                PlotPoint::new(far.left + 14.0, far.bottom() + 8.0),
+            ],
             style: LineStyle::Dashed,
         };
-        let dot = SketchShape::Dot { at: (far.left + 14.0, far.bottom() + 8.0), radius: 2.0 };
+        let dot = SketchShape::Dot {
+            at: PlotPoint::new(far.left + 14.0, far.bottom() + 8.0),
+            radius: 2.0,
+        };
         let part = SketchPart::new("guide", name, shape).and(dot).ink(SketchInk::Contact);
         return sheet.with(part.label(contact.name.clone(), &[Right, Left]));
     }
     let sign = (far.middle() - across).signum();
     let corner = far.middle() - sign * 0.4 * far.width;
     let level = pad + 0.5 * PAD;
-    let points = vec![(across + sign * 14.0, level), (corner, level), (corner, far.bottom())];
+    let points = vec![
+        PlotPoint::new(across + sign * 14.0, level),
+        PlotPoint::new(corner, level),
+        PlotPoint::new(corner, far.bottom()),
+    ];
     let shape = SketchShape::Line { points, style: LineStyle::Dashed };
     sheet.with(SketchPart::new("guide", name, shape).ink(SketchInk::Contact))
 }
@@ -231,25 +262,28 @@ fn lead(
 /// The surface, its velocity, the normal load and the friction force.
 fn loads(
     sheet: Sketch,
-    (across, level): (f64, f64),
+    PlotPoint { x: across, y: level }: PlotPoint,
     contact: &Contact,
     (index, from_left): (&str, bool),
 ) -> Sketch {
     let ink = SketchInk::Contact;
     let of = |noun: &str| format!("{noun} of contact {}", contact.name);
-    let surface = SketchShape::Surface { ends: (across - 26.0, across + 26.0), top: level };
+    let surface =
+        SketchShape::Surface { ends: PlotRange::new(across - 26.0, across + 26.0), top: level };
     let velocity = SketchShape::Arrow {
-        from: (across + 2.0, level + 13.0),
-        to: (across + 26.0, level + 13.0),
+        from: PlotPoint::new(across + 2.0, level + 13.0),
+        to: PlotPoint::new(across + 26.0, level + 13.0),
     };
     let load = SketchShape::Arrow {
-        from: (across - 12.0, level + 33.0),
-        to: (across - 12.0, level + 7.0),
+        from: PlotPoint::new(across - 12.0, level + 33.0),
+        to: PlotPoint::new(across - 12.0, level + 7.0),
     };
     // A line from the left would cover the arrow.
     let (tail, head) = if from_left { (15.0, 31.0) } else { (-31.0, -15.0) };
-    let friction =
-        SketchShape::Arrow { from: (across + tail, level - 4.0), to: (across + head, level - 4.0) };
+    let friction = SketchShape::Arrow {
+        from: PlotPoint::new(across + tail, level - 4.0),
+        to: PlotPoint::new(across + head, level - 4.0),
+    };
     sheet
         .with(SketchPart::new("surface", of("moving surface"), surface))
         .with(
@@ -283,8 +317,11 @@ fn several(
     let mut sheet = sheet;
     for (number, offset) in [-22.0, 0.0, 22.0].into_iter().enumerate().take(group.len().max(2)) {
         let at = across + offset;
-        let block = SketchShape::Block { corner: (at - 8.0, pad), size: (16.0, PAD) };
-        let points = vec![(at, seat.bottom()), (at, pad)];
+        let block = SketchShape::Block {
+            corner: PlotPoint::new(at - 8.0, pad),
+            size: FrameSize::new(16.0, PAD),
+        };
+        let points = vec![PlotPoint::new(at, seat.bottom()), PlotPoint::new(at, pad)];
         let part = SketchPart::new(
             "contact",
             if number == 0 { names(group) } else { String::new() },
@@ -293,7 +330,8 @@ fn several(
         sheet =
             sheet.with(part.and(SketchShape::Line { points, style: LineStyle::Solid }).ink(ink));
     }
-    let surface = SketchShape::Surface { ends: (across - 40.0, across + 40.0), top: pad + PAD };
+    let surface =
+        SketchShape::Surface { ends: PlotRange::new(across - 40.0, across + 40.0), top: pad + PAD };
     let part = SketchPart::new("surface", "moving surfaces", surface);
     sheet.with(part.label(counted(group.len(), "contact"), &[Below]))
 }
@@ -312,8 +350,8 @@ pub(super) fn spot(drawing: &SystemDrawing<'_>, contact: usize) -> Option<Contac
         let pad = pad_level(drawing, body, is_compliant(group[place].1));
         let level = pad + PAD + state_height(group[place].1);
         return Some(ContactSpot {
-            load: (across - 12.0, level + 26.0),
-            friction: (across - 30.0, level - 4.0),
+            load: PlotPoint::new(across - 12.0, level + 26.0),
+            friction: PlotPoint::new(across - 30.0, level - 4.0),
         });
     }
     None
@@ -321,6 +359,6 @@ pub(super) fn spot(drawing: &SystemDrawing<'_>, contact: usize) -> Option<Contac
 
 /// Positions of the forces of a contact.
 pub(super) struct ContactSpot {
-    pub(super) load: (f64, f64),
-    pub(super) friction: (f64, f64),
+    pub(super) load: PlotPoint,
+    pub(super) friction: PlotPoint,
 }

@@ -8,7 +8,7 @@ use super::contacts;
 use super::drawing::SystemDrawing;
 use super::grid;
 use crate::picture::sketch::symbols::{glyph, index, indexed};
-use crate::plot::{LabelSide, Sketch, SketchInk, SketchPart, SketchShape};
+use crate::plot::{LabelSide, PlotPoint, Sketch, SketchInk, SketchPart, SketchShape};
 
 use LabelSide::{Above, Below, Left, Right};
 
@@ -52,9 +52,12 @@ fn force(
     } else {
         seat.top + grid::SPRINGS + grid::FORCE * row as f64 + 12.0
     };
-    let wave = SketchShape::Wave { at: (seat.left - 31.0, level), glyph: glyph(form) };
-    let arrow =
-        SketchShape::Arrow { from: (seat.left - 20.0, level), to: (seat.left - 1.0, level) };
+    let wave =
+        SketchShape::Wave { at: PlotPoint::new(seat.left - 31.0, level), glyph: glyph(form) };
+    let arrow = SketchShape::Arrow {
+        from: PlotPoint::new(seat.left - 20.0, level),
+        to: PlotPoint::new(seat.left - 1.0, level),
+    };
     let name = format!("{} dither at {}", form.name(), drawing.bodies[body].name);
     let part = SketchPart::new("dither", name, wave).and(arrow).ink(SketchInk::Input);
     sheet.with(part.label(label, &[Below, Above, Left]))
@@ -70,9 +73,9 @@ fn modulation(
 ) -> Sketch {
     let Some(spot) = contacts::spot(drawing, contact) else { return sheet };
     let (at, of) = if is_load {
-        ((spot.load.0 - 30.0, spot.load.1 - 2.0), "normal load")
+        (spot.load.moved(-30.0, -2.0), "normal load")
     } else {
-        ((spot.friction.0 - 28.0, spot.friction.1), "friction")
+        (spot.friction.moved(-28.0, 0.0), "friction")
     };
     let name = &drawing.study.system().contacts[contact].name;
     let name = format!("{} dither of the {of} of contact {name}", form.name());
@@ -93,8 +96,8 @@ fn constant_forces(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
         let seat = drawing.grid.seat(place);
         let level = seat.top + grid::SPRINGS + 12.0;
         let shape = SketchShape::Arrow {
-            from: (seat.right() + 1.0, level),
-            to: (seat.right() + 24.0, level),
+            from: PlotPoint::new(seat.right() + 1.0, level),
+            to: PlotPoint::new(seat.right() + 24.0, level),
         };
         let name = format!("constant force at {}", body.name);
         let part = SketchPart::new("force", name, shape);

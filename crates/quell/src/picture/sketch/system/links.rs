@@ -3,7 +3,7 @@
 use super::drawing::SystemDrawing;
 use super::grid::{BodySeat, SUPPORT};
 use super::link::SketchLink;
-use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
+use crate::plot::{LabelSide, LineStyle, PlotPoint, Sketch, SketchInk, SketchPart, SketchShape};
 use crate::words::counted;
 
 use LabelSide::{Above, Below, Left, Right};
@@ -50,16 +50,25 @@ fn support(mut sheet: Sketch, drawing: &SystemDrawing<'_>, link: &SketchLink) ->
     let top = seat.top - SUPPORT;
     let (left, right) = (seat.left + 12.0, seat.left + 30.0);
     if link.stiffness.is_some() {
-        let shape = SketchShape::Spring { from: (left, seat.top), to: (left, top) };
+        let shape = SketchShape::Spring {
+            from: PlotPoint::new(left, seat.top),
+            to: PlotPoint::new(left, top),
+        };
         let part = SketchPart::new("spring", named(drawing, link, "spring"), shape);
         sheet = sheet.with(part.label(link.symbol("k"), &[Left]));
     }
     if link.damping.is_some() {
-        let shape = SketchShape::Damper { from: (right, seat.top), to: (right, top) };
+        let shape = SketchShape::Damper {
+            from: PlotPoint::new(right, seat.top),
+            to: PlotPoint::new(right, top),
+        };
         let part = SketchPart::new("damper", named(drawing, link, "damper"), shape);
         sheet = sheet.with(part.label(link.symbol("c"), &[Right]));
     }
-    let shape = SketchShape::Ground { from: (left - 10.0, top), to: (right + 10.0, top) };
+    let shape = SketchShape::Ground {
+        from: PlotPoint::new(left - 10.0, top),
+        to: PlotPoint::new(right + 10.0, top),
+    };
     sheet.with(SketchPart::new("ground", "ground", shape))
 }
 
@@ -70,17 +79,17 @@ fn neighbours(
     link: &SketchLink,
     (from, to): (BodySeat, BodySeat),
 ) -> Sketch {
-    let line = |level: f64| ((from.right(), level), (to.left, level));
+    let line = |level: f64| [from.right(), to.left].map(|across| PlotPoint::new(across, level));
     let both = link.stiffness.is_some() || !link.couplings.is_empty();
     let (upper, lower) = (from.top + 8.0, from.top + if both { 28.0 } else { 8.0 });
     if link.stiffness.is_some() {
-        let (from, to) = line(upper);
+        let [from, to] = line(upper);
         let shape = SketchShape::Spring { from, to };
         let part = SketchPart::new("spring", named(drawing, link, "spring"), shape);
         sheet = sheet.with(part.label(link.symbol("k"), &[Above]));
     }
     if link.damping.is_some() {
-        let (from, to) = line(lower);
+        let [from, to] = line(lower);
         let shape = SketchShape::Damper { from, to };
         let part = SketchPart::new("damper", named(drawing, link, "damper"), shape);
         sheet = sheet.with(part.label(link.symbol("c"), &[Below]));
@@ -89,13 +98,12 @@ fn neighbours(
         return sheet;
     }
     let level = if link.stiffness.is_some() { from.top + 18.0 } else { upper };
-    let (from, to) = line(level);
-    let part = coupling(drawing, link, vec![from, to]);
+    let part = coupling(drawing, link, line(level).to_vec());
     sheet.with(part.label(letters(link), &[Above, Below]))
 }
 
 /// A dashed line for a coupling without spring.
-fn coupling(drawing: &SystemDrawing<'_>, link: &SketchLink, points: Vec<(f64, f64)>) -> SketchPart {
+fn coupling(drawing: &SystemDrawing<'_>, link: &SketchLink, points: Vec<PlotPoint>) -> SketchPart {
     let shape = SketchShape::Line { points, style: LineStyle::Dashed };
     SketchPart::new("coupling", named(drawing, link, "coupling"), shape).ink(SketchInk::Guide)
 }
@@ -118,30 +126,31 @@ fn tracked(
     let aside = 4.0 + 6.0 * slot as f64;
     let (left, right) = (from.right() - aside, to.right() - aside);
     let middle = 0.5 * (left + right);
+    let at = PlotPoint::new;
     let legs = |inner: f64| {
         [
-            vec![(left, from.top), (left, level), (middle - inner, level)],
-            vec![(middle + inner, level), (right, level), (right, to.top)],
+            vec![at(left, from.top), at(left, level), at(middle - inner, level)],
+            vec![at(middle + inner, level), at(right, level), at(right, to.top)],
         ]
     };
-    let line = |points: Vec<(f64, f64)>| SketchShape::Line { points, style: LineStyle::Solid };
+    let line = |points: Vec<PlotPoint>| SketchShape::Line { points, style: LineStyle::Solid };
     let (class, mut label) = main_part(link);
     if class == "coupling" {
-        let points = vec![(left, from.top), (left, level), (right, level), (right, to.top)];
+        let points = vec![at(left, from.top), at(left, level), at(right, level), at(right, to.top)];
         return sheet.with(coupling(drawing, link, points).label(label, &[Above]));
     }
     if link.stiffness.is_some() && link.damping.is_some() {
         label = format!("{label}, {}", link.symbol("c"));
     }
     let [one, other] = legs(16.0);
-    let shape = element(class, (middle - 16.0, level), (middle + 16.0, level));
+    let shape = element(class, at(middle - 16.0, level), at(middle + 16.0, level));
     let part = SketchPart::new(class, named(drawing, link, class), shape);
     let part = part.label(label, &[Above, Below]);
     let sheet = sheet.with(part.and(line(one)).and(line(other)));
     if link.couplings.is_empty() {
         return sheet;
     }
-    let spot = SketchShape::Spot { at: (middle + 20.0, level) };
+    let spot = SketchShape::Spot { at: PlotPoint::new(middle + 20.0, level) };
     let part =
         SketchPart::new("coupling", named(drawing, link, "coupling"), spot).ink(SketchInk::Guide);
     sheet.with(part.label(letters(link), &[Above, Below]))
@@ -157,7 +166,7 @@ fn main_part(link: &SketchLink) -> (&'static str, String) {
 }
 
 /// A spring, a damper or a dashed line between two points.
-fn element(class: &str, from: (f64, f64), to: (f64, f64)) -> SketchShape {
+fn element(class: &str, from: PlotPoint, to: PlotPoint) -> SketchShape {
     match class {
         "spring" => SketchShape::Spring { from, to },
         "damper" => SketchShape::Damper { from, to },
@@ -178,7 +187,7 @@ fn stubs(
     for (seat, sign, other) in [(ends.0, 1.0, to), (ends.1, -1.0, link.from)] {
         let level = seat.top + 18.0;
         let edge = if sign > 0.0 { seat.right() } else { seat.left };
-        let (from, end) = ((edge, level), (edge + sign * 26.0, level));
+        let [from, end] = [edge, edge + sign * 26.0].map(|across| PlotPoint::new(across, level));
         let dot = SketchShape::Dot { at: end, radius: 2.0 };
         let part = SketchPart::new(class, name.clone(), element(class, from, end)).and(dot);
         let part = part.label(label.clone(), &[Above]);
@@ -197,7 +206,7 @@ fn list(mut sheet: Sketch, drawing: &SystemDrawing<'_>, links: &[(&SketchLink, u
     for (place, (link, to)) in links.iter().take(MOST_LISTED).enumerate() {
         let left = first + LISTED_WIDTH * (place % columns) as f64;
         let level = drawing.grid.bottom() + 16.0 + LISTED_HEIGHT * (place / columns) as f64;
-        let (from, end) = ((left + 52.0, level), (left + 92.0, level));
+        let [from, end] = [left + 52.0, left + 92.0].map(|across| PlotPoint::new(across, level));
         let (class, label) = main_part(link);
         let shape = element(class, from, end);
         let name = named(drawing, link, class);
@@ -209,7 +218,7 @@ fn list(mut sheet: Sketch, drawing: &SystemDrawing<'_>, links: &[(&SketchLink, u
         let rows = MOST_LISTED.div_ceil(columns);
         let level = drawing.grid.bottom() + 16.0 + LISTED_HEIGHT * rows as f64;
         let words = counted(links.len() - MOST_LISTED, "further link");
-        let spot = SketchShape::Spot { at: (drawing.grid.middle(), level) };
+        let spot = SketchShape::Spot { at: PlotPoint::new(drawing.grid.middle(), level) };
         sheet = sheet.with(SketchPart::new("coupling", words.clone(), spot).label(words, &[Below]));
     }
     sheet
