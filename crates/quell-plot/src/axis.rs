@@ -181,7 +181,7 @@ impl PlotAxis {
             return PlotRange::new(lower, upper);
         }
         let width = upper - lower;
-        let step = 10f64.powf((width / 5.0).log10().floor()) * 2.0;
+        let step = libm::pow(10.0, libm::log10(width / 5.0).floor()) * 2.0;
         let (below, above) = ((lower / step).floor() * step, (upper / step).ceil() * step);
         PlotRange::new(
             if lower - below < CLOSE * width { below } else { lower },
@@ -193,14 +193,14 @@ impl PlotAxis {
     pub(super) fn along(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => value,
-            Scale::Log => value.log10(),
+            Scale::Log => libm::log10(value),
         }
     }
 
     fn back(&self, position: f64) -> f64 {
         match self.scale {
             Scale::Linear => position,
-            Scale::Log => 10f64.powf(position),
+            Scale::Log => libm::pow(10.0, position),
         }
     }
 
@@ -209,7 +209,7 @@ impl PlotAxis {
             Scale::Linear if value == 0.0 => sign,
             Scale::Linear => value + sign * 0.1 * value.abs(),
             // An infinite limit, or zero, cannot be represented on the axis.
-            Scale::Log => (value * 2f64.powf(sign)).clamp(f64::MIN_POSITIVE, f64::MAX),
+            Scale::Log => (value * libm::pow(2.0, sign)).clamp(f64::MIN_POSITIVE, f64::MAX),
         }
     }
 }
@@ -251,7 +251,7 @@ impl Mapping {
     pub(super) fn pixel(&self, value: f64) -> Option<f64> {
         let along = match self.scale {
             Scale::Linear => value,
-            Scale::Log if value > 0.0 => value.log10(),
+            Scale::Log if value > 0.0 => libm::log10(value),
             Scale::Log => return None,
         };
         let pixel = self.first_pixel + (along - self.origin) * self.slope;

@@ -177,7 +177,8 @@ fn signed(colour_map: &ColourMap, size: f64, height: f64) -> Option<Ticks> {
         return None;
     }
     #[expect(clippy::cast_possible_truncation, reason = "decimal exponents")]
-    let (first, last) = (size.log10().floor() as i32, (upper.log10() + 1e-9).floor() as i32);
+    let (first, last) =
+        (libm::log10(size).floor() as i32, (libm::log10(upper) + 1e-9).floor() as i32);
     let position = |value: f64| colour_map.share(value) * height;
     let mut major = vec![(0.0, RichText::parse("0"))];
     let mut minor = Vec::new();

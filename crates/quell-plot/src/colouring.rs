@@ -160,7 +160,7 @@ impl ColourMap {
         };
         let position = |value: f64| match shading.spread {
             Spread::Linear => value,
-            Spread::Log => value.max(f64::MIN_POSITIVE).ln(),
+            Spread::Log => libm::log(value.max(f64::MIN_POSITIVE)),
             // asinh of larger values overflows.
             Spread::SignedLog(size) => {
                 let whole = lower.abs().max(upper.abs());

@@ -103,7 +103,7 @@ impl Field {
 pub(super) fn borders(values: &[f64], scale: Scale) -> Vec<f64> {
     let along = |value: f64| match scale {
         Scale::Linear => value,
-        Scale::Log if value > 0.0 => value.log10(),
+        Scale::Log if value > 0.0 => libm::log10(value),
         Scale::Log => f64::NEG_INFINITY,
     };
     let positions: Vec<f64> = values.iter().map(|value| along(*value)).collect();

@@ -38,7 +38,7 @@ impl PlotPoint {
 
     /// Distance to another point.
     pub(super) fn distance(self, other: Self) -> f64 {
-        (other.x - self.x).hypot(other.y - self.y)
+        libm::hypot(other.x - self.x, other.y - self.y)
     }
 }
 

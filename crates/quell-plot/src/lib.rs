@@ -25,6 +25,8 @@
 //! The crate lays out the figure and writes the SVG itself; resvg converts it to PNG and svg2pdf to PDF, with
 //! the bundled DejaVu fonts.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod arrange;
 mod axis;
 mod axis_limits;

@@ -120,7 +120,7 @@ impl OccupancyMap {
                 clippy::cast_sign_loss,
                 reason = "pixels are clamped to 1e5"
             )]
-            let steps = (dx.hypot(dy) / 0.7).ceil().min(1e5) as usize;
+            let steps = (libm::hypot(dx, dy) / 0.7).ceil().min(1e5) as usize;
             for step in 0..=steps {
                 let share = step as f64 / steps.max(1) as f64;
                 self.mark(PlotPoint::new(pair[0].x + share * dx, pair[0].y + share * dy), owner);
@@ -233,7 +233,7 @@ impl<'a> MeasuredPath<'a> {
         const SAMPLES: i32 = 8;
         let (from, to) = (self.at(at - half), self.at(at + half));
         let (dx, dy) = (to.x - from.x, to.y - from.y);
-        let chord = dx.hypot(dy);
+        let chord = libm::hypot(dx, dy);
         if chord < 1.8 * half {
             return None;
         }
@@ -325,7 +325,8 @@ fn label(
                 placed.push(PlacedLabel {
                     level: number,
                     centre: candidate.centre,
-                    rotation: candidate.direction.y.atan2(candidate.direction.x).to_degrees(),
+                    rotation: libm::atan2(candidate.direction.y, candidate.direction.x)
+                        .to_degrees(),
                     piece: *piece,
                     from: candidate.at - opened,
                     to: candidate.at + opened,

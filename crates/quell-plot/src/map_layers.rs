@@ -176,7 +176,7 @@ impl Contours {
             .collect();
         let back = |axis: &PlotAxis, position: f64| match axis.scale {
             Scale::Linear => position,
-            Scale::Log => 10f64.powf(position),
+            Scale::Log => libm::pow(10.0, position),
         };
         self.levels
             .iter()
@@ -219,7 +219,7 @@ fn round_levels(PlotRange { lower: least, upper: most }: PlotRange, count: usize
         return Vec::new();
     }
     let wanted = 2.0 * (width / count as f64);
-    let decade = 10f64.powf(wanted.log10().floor());
+    let decade = libm::pow(10.0, libm::log10(wanted).floor());
     let step = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
         .map(|leading| leading * decade)

@@ -103,7 +103,7 @@ impl Isolines {
             "stroke=\"#fff\" stroke-width=\"2\" stroke-opacity=\"0.6\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
         );
         for text in &self.placed {
-            let (sin, cos) = text.rotation.to_radians().sin_cos();
+            let (sin, cos) = libm::sincos(text.rotation.to_radians());
             let drop = 0.36 * self.size;
             let position = PlotPoint::new(text.centre.x - drop * sin, text.centre.y + drop * cos);
             let colour = self.strokes[text.level].0;
@@ -120,7 +120,7 @@ impl Isolines {
     pub(super) fn label_areas(&self) -> impl Iterator<Item = Rectangle> {
         self.placed.iter().map(|text| {
             let half = 0.5 * self.levels[text.level].text.width(self.size, false);
-            let (sin, cos) = text.rotation.to_radians().sin_cos();
+            let (sin, cos) = libm::sincos(text.rotation.to_radians());
             let across = half * cos.abs() + 0.5 * self.size * sin.abs();
             let up = half * sin.abs() + 0.5 * self.size * cos.abs();
             Rectangle {

@@ -121,12 +121,12 @@ fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
 fn lab((red, green, blue): Colour) -> [f64; 3] {
     let linear = |level: u8| {
         let share = f64::from(level) / 255.0;
-        if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+        if share <= 0.04045 { share / 12.92 } else { libm::pow((share + 0.055) / 1.055, 2.4) }
     };
     let (r, g, b) = (linear(red), linear(green), linear(blue));
-    let l = (0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b).cbrt();
-    let m = (0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b).cbrt();
-    let s = (0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b).cbrt();
+    let l = libm::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+    let m = libm::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+    let s = libm::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
     [
         0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
         1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
@@ -143,7 +143,7 @@ fn colour([lightness, a, b]: [f64; 3]) -> Colour {
         let share = if linear <= 0.0031308 {
             12.92 * linear
         } else {
-            1.055 * linear.powf(1.0 / 2.4) - 0.055
+            1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
         };
         #[expect(
             clippy::cast_possible_truncation,

@@ -65,16 +65,16 @@ fn straighten(points: &[PlotPoint]) -> Vec<PlotPoint> {
     let mut previous = first;
     for &point in &points[1..] {
         let (dx, dy) = (point.x - anchor.x, point.y - anchor.y);
-        let distance = dx.hypot(dy);
+        let distance = libm::hypot(dx, dy);
         if distance <= SLACK && cone.is_none() {
             previous = point;
             continue;
         }
-        let opening = (SLACK / distance.max(SLACK)).asin();
+        let opening = libm::asin(SLACK / distance.max(SLACK));
         let narrowed = match cone {
-            None => Some((dy.atan2(dx), -opening, opening)),
+            None => Some((libm::atan2(dy, dx), -opening, opening)),
             Some((reference, least, greatest)) => {
-                let turn = wrap(dy.atan2(dx) - reference);
+                let turn = wrap(libm::atan2(dy, dx) - reference);
                 // A stroke that reverses is not straight even if its direction lies in the cone.
                 let inside = turn >= least && turn <= greatest && distance >= reach;
                 inside.then(|| (reference, least.max(turn - opening), greatest.min(turn + opening)))
@@ -87,9 +87,9 @@ fn straighten(points: &[PlotPoint]) -> Vec<PlotPoint> {
             kept.push(previous);
             anchor = previous;
             let (dx, dy) = (point.x - anchor.x, point.y - anchor.y);
-            reach = dx.hypot(dy);
-            let opening = (SLACK / reach.max(SLACK)).asin();
-            cone = (reach > SLACK).then(|| (dy.atan2(dx), -opening, opening));
+            reach = libm::hypot(dx, dy);
+            let opening = libm::asin(SLACK / reach.max(SLACK));
+            cone = (reach > SLACK).then(|| (libm::atan2(dy, dx), -opening, opening));
         }
         previous = point;
     }

@@ -62,7 +62,7 @@ impl Ticks {
     fn evenly(limits: PlotRange, count: usize) -> Self {
         let step = step_for((limits.upper - limits.lower) / count as f64);
         let values = multiples(limits, step);
-        let leading = step / 10f64.powf((step.log10() + 1e-9).floor());
+        let leading = step / libm::pow(10.0, (libm::log10(step) + 1e-9).floor());
         let parts = if (leading - 2.0).abs() < 0.1 { 4 } else { 5 };
         let minor = values
             .first()
@@ -80,7 +80,7 @@ impl Ticks {
         let greatest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let exponent = if greatest >= 1e5 || (greatest > 0.0 && greatest < 2e-3) {
             #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
-            let exponent = greatest.log10().floor() as i32;
+            let exponent = libm::log10(greatest).floor() as i32;
             exponent
         } else {
             0
@@ -95,7 +95,7 @@ impl Ticks {
     }
 
     fn logarithmic(limits: PlotRange, room: Room) -> Self {
-        let (low, high) = (limits.lower.log10(), limits.upper.log10());
+        let (low, high) = (libm::log10(limits.lower), libm::log10(limits.upper));
         let decades = high - low;
         let most = match room {
             Room::Across(pixels, _) => pixels / 45.0,
@@ -146,7 +146,7 @@ impl Ticks {
 /// The least of 1, 2 and 5 times a power of ten that is at least 0.65 `wanted`.
 fn step_for(wanted: f64) -> f64 {
     let least = 0.65 * wanted;
-    let decade = 10f64.powf(least.log10().floor());
+    let decade = libm::pow(10.0, libm::log10(least).floor());
     [1.0, 2.0, 5.0, 10.0]
         .into_iter()
         .map(|leading| leading * decade)

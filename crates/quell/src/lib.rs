@@ -155,6 +155,8 @@
 //! | [`sound`] | the velocity of a motion as a sound file |
 //! | [`cite`], [`template`] | sources of a study's computations; commented studies to start from |
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod html;
 pub mod keys;
 pub mod outcome;

@@ -75,7 +75,7 @@ pub(super) fn corners(area: Rectangle) -> Vec<PlotPoint> {
 /// The point at a distance along and across the line between two points (to the right of it, y downwards).
 pub(super) fn along(from: PlotPoint, to: PlotPoint, distance: f64, across: f64) -> PlotPoint {
     let (dx, dy) = (to.x - from.x, to.y - from.y);
-    let length = dx.hypot(dy).max(f64::MIN_POSITIVE);
+    let length = libm::hypot(dx, dy).max(f64::MIN_POSITIVE);
     let (ux, uy) = (dx / length, dy / length);
     PlotPoint::new(from.x + distance * ux - across * uy, from.y + distance * uy + across * ux)
 }
@@ -160,7 +160,7 @@ pub(super) fn turn(
     // The head points along the tangent at its middle.
     let sign = if to > from { 1.0 } else { -1.0 };
     let slope = (to - sign * 90.0 / radius.max(1.0) * 2.0).to_radians();
-    let (ux, uy) = (-sign * slope.sin(), -sign * slope.cos());
+    let (ux, uy) = (-sign * libm::sin(slope), -sign * libm::cos(slope));
     let back = |distance: f64, across: f64| {
         PlotPoint::new(end.x - distance * ux - across * uy, end.y - distance * uy + across * ux)
     };
@@ -177,7 +177,7 @@ pub(super) fn arc(centre: PlotPoint, radius: f64, from: f64, to: f64) -> Vec<Plo
     let steps = ((to - from).abs() / 5.0).ceil().clamp(1.0, 360.0) as usize;
     let point = |step: usize| {
         let angle = (from + (to - from) * step as f64 / steps as f64).to_radians();
-        PlotPoint::new(centre.x + radius * angle.cos(), centre.y - radius * angle.sin())
+        PlotPoint::new(centre.x + radius * libm::cos(angle), centre.y - radius * libm::sin(angle))
     };
     (0..=steps).map(point).collect()
 }
@@ -199,15 +199,15 @@ pub(super) fn wave(at: PlotPoint, glyph: WaveGlyph) -> Vec<PlotPoint> {
     let samples: Vec<(f64, f64)> = match glyph {
         WaveGlyph::Sine => (0..=36)
             .map(|step| f64::from(step) / 24.0)
-            .map(|phase| (phase, (TAU * phase).sin()))
+            .map(|phase| (phase, libm::sin(TAU * phase)))
             .collect(),
         WaveGlyph::Burst => (0..=36)
             .map(|step| f64::from(step) / 24.0)
-            .map(|phase| (phase, if phase < 1.0 { (2.0 * TAU * phase).sin() } else { 0.0 }))
+            .map(|phase| (phase, if phase < 1.0 { libm::sin(2.0 * TAU * phase) } else { 0.0 }))
             .collect(),
         WaveGlyph::Other => (0..=36)
             .map(|step| f64::from(step) / 24.0)
-            .map(|phase| (phase, 0.7 * (TAU * phase).sin() + 0.5 * (2.0 * TAU * phase).cos()))
+            .map(|phase| (phase, 0.7 * libm::sin(TAU * phase) + 0.5 * libm::cos(2.0 * TAU * phase)))
             .collect(),
         WaveGlyph::Square => vec![
             (0.0, 0.0),
@@ -231,7 +231,7 @@ pub(super) fn wave(at: PlotPoint, glyph: WaveGlyph) -> Vec<PlotPoint> {
 
 /// A triangle wave of period 1 that rises through 0 at 0.
 pub(super) fn triangle(phase: f64) -> f64 {
-    (TAU * phase).sin().asin() * 2.0 / PI
+    libm::asin(libm::sin(TAU * phase)) * 2.0 / PI
 }
 
 #[cfg(test)]

@@ -267,8 +267,8 @@ fn round_ratios(PlotRange { lower: least, upper: most }: PlotRange) -> Vec<f64> 
         return Vec::new();
     }
     let leading: &[f64] = if most / least < 300.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
-    let (mut levels, first) = (Vec::new(), least.log10().floor());
-    let mut decade = 10f64.powf(first);
+    let (mut levels, first) = (Vec::new(), libm::log10(least).floor());
+    let mut decade = libm::pow(10.0, first);
     while decade < most {
         levels.extend(leading.iter().map(|digit| digit * decade));
         decade *= 10.0;

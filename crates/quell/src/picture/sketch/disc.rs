@@ -65,8 +65,8 @@ fn plan(sheet: Sketch, study: &DiscStudy) -> Sketch {
         let degrees = load.angle.to_degrees();
         let point = |radius: f64| {
             PlotPoint::new(
-                centre.x + radius * load.angle.cos(),
-                centre.y - radius * load.angle.sin(),
+                centre.x + radius * libm::cos(load.angle),
+                centre.y - radius * libm::sin(load.angle),
             )
         };
         let name = format!("load {} at {}°", place + 1, number(degrees));
@@ -88,7 +88,7 @@ fn plan(sheet: Sketch, study: &DiscStudy) -> Sketch {
         sheet = sheet.with(SketchPart::new("guide", "", spoke).ink(SketchInk::Guide));
         sheet = sheet.with(SketchPart::new("contact", name, mark).ink(SketchInk::Contact));
         if count > 1 && count <= 12 {
-            let (x, y) = (load.angle.cos(), load.angle.sin());
+            let (x, y) = (libm::cos(load.angle), libm::sin(load.angle));
             let side = match (x.abs() >= y.abs(), x > 0.0, y > 0.0) {
                 (true, true, _) => LabelSide::Right,
                 (true, false, _) => LabelSide::Left,
