@@ -14,6 +14,7 @@
 use num_complex::Complex64;
 use quell_numerics::eigen::{Decomposition, EigenError};
 use quell_numerics::matrix::Matrix;
+use quell_numerics::order::ascending_by;
 
 use crate::growth::Growth;
 use crate::linearised::{FrictionSlopes, LinearContact, Linearised, Matrices};
@@ -50,7 +51,8 @@ impl SmallMotion {
 pub struct MotionSpectrum {
     /// Largest growth rate with its bound.
     pub growth: Growth,
-    /// One motion for each eigenvalue, complex conjugates included.
+    /// One motion for each eigenvalue, complex conjugates included: those that may lead by their errors from the slowest on, then the others by
+    /// falling growth rate.
     pub motions: Vec<SmallMotion>,
 }
 
@@ -82,7 +84,13 @@ pub fn spectrum(
         let (a, b) = (a.eigenvalue, b.eigenvalue);
         b.re.total_cmp(&a.re).then(a.im.abs().total_cmp(&b.im.abs())).then(b.im.total_cmp(&a.im))
     });
-    Ok(MotionSpectrum { growth, motions })
+    // Of those that may lead by their errors the slowest does, as in `growth`: rounding chooses nowhere.
+    let largest = motions.first().map_or(f64::NEG_INFINITY, |motion| motion.eigenvalue.re);
+    let (mut leaders, others): (Vec<_>, Vec<_>) =
+        motions.into_iter().partition(|motion| motion.eigenvalue.re + motion.error >= largest);
+    ascending_by(&mut leaders, |motion| motion.eigenvalue.im.abs());
+    leaders.extend(others);
+    Ok(MotionSpectrum { growth, motions: leaders })
 }
 
 /// Largest growth rate under a given friction of each contact.

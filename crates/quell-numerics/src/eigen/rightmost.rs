@@ -36,14 +36,9 @@ impl Decomposition {
     /// All eigenvalues with a positive real part, one of each conjugate pair, the largest real part first, each with a
     /// bound on the error of its real part.
     pub fn in_right_half_plane(&self) -> Vec<Rightmost> {
-        let rounding = ROUNDING * f64::EPSILON * self.norm;
-        let nearly_double = (rounding * self.norm).sqrt();
         let mut found: Vec<Rightmost> = (0..self.n)
             .filter(|&i| self.values[i].im >= 0.0 && self.values[i].re > 0.0)
-            .map(|i| {
-                let error = (rounding * self.pair(i).condition).min(nearly_double);
-                Rightmost { value: self.values[i], error: error.max(f64::MIN_POSITIVE) }
-            })
+            .map(|i| Rightmost { value: self.values[i], error: self.error_of(&self.pair(i)) })
             .collect();
         found.sort_by(|a, b| {
             b.value.re.total_cmp(&a.value.re).then(a.value.im.total_cmp(&b.value.im))
@@ -51,23 +46,53 @@ impl Decomposition {
         found
     }
 
-    /// The eigenvalue of largest real part; `None` for a matrix without rows.
+    /// The eigenvalue of largest real part, of those that may have it by their errors the one of lowest frequency, so that rounding
+    /// chooses nowhere; `None` for a matrix without rows.
     pub fn rightmost(&self) -> Option<Rightmost> {
-        let upper = |z: &Complex64| z.im >= 0.0;
-        let leader = self
-            .values
-            .iter()
-            .copied()
+        let upper = |i: &usize| self.values[*i].im >= 0.0;
+        let largest = (0..self.n).filter(upper).map(|i| self.values[i].re).reduce(f64::max)?;
+        let near: Vec<Rightmost> = (0..self.n)
             .filter(upper)
-            .max_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)))?;
-        let rounding = ROUNDING * f64::EPSILON * self.norm;
-        let nearly_double = (rounding * self.norm).sqrt();
-        let highest = (0..self.n)
-            .filter(|&i| {
-                upper(&self.values[i]) && self.values[i].re >= leader.re - MARGIN * self.norm
-            })
-            .map(|i| self.values[i].re + (rounding * self.pair(i).condition).min(nearly_double))
-            .fold(leader.re, f64::max);
-        Some(Rightmost { value: leader, error: (highest - leader.re).max(f64::MIN_POSITIVE) })
+            .filter(|&i| self.values[i].re >= largest - MARGIN * self.norm)
+            .map(|i| Rightmost { value: self.values[i], error: self.error_of(&self.pair(i)) })
+            .collect();
+        let highest = near.iter().map(|own| own.value.re + own.error).fold(largest, f64::max);
+        let may_lead = near.iter().filter(|own| own.value.re + own.error >= largest);
+        let leader = may_lead.min_by(|a, b| {
+            a.value.im.total_cmp(&b.value.im).then(b.value.re.total_cmp(&a.value.re))
+        })?;
+        Some(Rightmost { error: (highest - leader.value.re).max(f64::MIN_POSITIVE), ..*leader })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::matrix::Matrix;
+
+    /// Undamped oscillators of which rounding decides which is rightmost: the slowest leads, in any order of the coordinates.
+    #[test]
+    fn rounding_does_not_choose_the_leader() {
+        let squares = [7.3, 1.9, 4.4, 2.8];
+        for turn in 0..4 {
+            let matrix = Matrix::from_fn(8, 8, |i, j| {
+                let square = squares[(i + turn) % 4];
+                match (i < 4, j < 4) {
+                    (true, false) if i == j - 4 => 1.0,
+                    (false, true) if i - 4 == j => -square,
+                    _ => 0.0,
+                }
+            });
+            let mixed =
+                Matrix::from_fn(
+                    8,
+                    8,
+                    |i, j| if i == j { 1.0 } else { 0.1 / (1 + i + 2 * j) as f64 },
+                );
+            let similar = mixed.solve(&matrix.times(&mixed)).expect("regular");
+            let leader = Decomposition::new(&similar).expect("finite").rightmost().expect("rows");
+            assert!((leader.value.im - 1.9_f64.sqrt()).abs() < 1e-12, "{leader:?}");
+            assert!(leader.value.re.abs() <= leader.error && leader.error < 1e-12, "{leader:?}");
+        }
     }
 }
