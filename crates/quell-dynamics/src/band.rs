@@ -17,14 +17,16 @@ pub const BAND_END: f64 = 1.9;
 pub(crate) const LEAST_BAND_END: f64 = 1.5;
 
 /// Angular frequency of the vibration of a system about steady sliding without dither: of the small motions that oscillate, that which
-/// grows fastest or decays slowest; without steady sliding, of the structure without its contacts. `None` where nothing oscillates.
+/// grows fastest or decays slowest, of several that may by their errors the fastest; without steady sliding, of the structure without its contacts. `None` where nothing oscillates.
 pub fn vibration_frequency(system: &System) -> Option<f64> {
     let free = system.undithered();
     let bare = || Linearised::new(&System { contacts: Vec::new(), ..free.clone() });
     let linear = Linearised::new(&free).or_else(|_| bare()).ok()?;
     let found = spectrum(&linear, &linear.friction()).ok()?;
-    // The fastest growing one is the first.
-    found.motions.iter().map(SmallMotion::frequency).find(|frequency| *frequency > 0.0)
+    // Of several that may lead, the fastest: vibration above the band would be called quiet.
+    let fastest = found.leaders().iter().map(SmallMotion::frequency).fold(0.0, f64::max);
+    let all = found.motions.iter().map(SmallMotion::frequency);
+    [fastest].into_iter().chain(all).find(|frequency| *frequency > 0.0)
 }
 
 /// Whether every spectral line of a motion of this period is above the band of the vibration of a system.

@@ -33,7 +33,22 @@ pub struct SmallMotion {
     pub friction_shares: Vec<f64>,
 }
 
+impl MotionSpectrum {
+    /// The motions that may grow fastest by their errors, from the slowest on: a conjugate pair, or all of an undamped structure.
+    pub fn leaders(&self) -> &[SmallMotion] {
+        let rates = self.motions.iter().map(|motion| motion.eigenvalue.re);
+        let largest = rates.fold(f64::NEG_INFINITY, f64::max);
+        let count = self.motions.iter().take_while(|motion| motion.may_exceed(largest)).count();
+        &self.motions[..count]
+    }
+}
+
 impl SmallMotion {
+    /// Whether the motion may grow at this rate by its error.
+    fn may_exceed(&self, rate: f64) -> bool {
+        self.eigenvalue.re + self.error >= rate
+    }
+
     /// |Im λ|.
     pub fn frequency(&self) -> f64 {
         self.eigenvalue.im.abs()
@@ -87,7 +102,7 @@ pub fn spectrum(
     // Of those that may lead by their errors the slowest does, as in `growth`: rounding chooses nowhere.
     let largest = motions.first().map_or(f64::NEG_INFINITY, |motion| motion.eigenvalue.re);
     let (mut leaders, others): (Vec<_>, Vec<_>) =
-        motions.into_iter().partition(|motion| motion.eigenvalue.re + motion.error >= largest);
+        motions.into_iter().partition(|motion: &SmallMotion| motion.may_exceed(largest));
     ascending_by(&mut leaders, |motion| motion.eigenvalue.im.abs());
     leaders.extend(others);
     Ok(MotionSpectrum { growth, motions: leaders })
