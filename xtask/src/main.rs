@@ -6,6 +6,7 @@ use std::process::ExitCode;
 mod book;
 mod coverage;
 mod cycles;
+mod dist;
 mod english;
 mod layers;
 mod licences;
@@ -28,6 +29,7 @@ tasks:
   book               build the book with its pictures in target/book
   coverage [CRATE]   list the lines that no test reaches in target/coverage [default: all crates]
   cycles [OPTION]    check that no modules of a crate use each other in a ring
+  dist               build what a release consists of for this platform: program, wheel, checksums
   english [OPTION]   check that texts avoid the words of xtask/src/english/words.rs
   layers             check dependencies between crates, and confined dependencies, against the table of layers
   licences           check the licences of all dependencies against the accepted ones
@@ -91,6 +93,7 @@ fn run(root: &Path, arguments: &[&str]) -> Option<Result<(), String>> {
             meaning::run(root, task, option.is_some())
         }
         ("test", Some("--quick")) => test::run(root, true),
+        ("dist", None) => dist::run(root),
         ("book", None) => book::run(root),
         ("layers", None) => layers::run(root),
         ("licences", None) => licences::run(root),

@@ -15,6 +15,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::python::command;
+
 /// The folder of programs and answers.
 const PLACE: &str = "target/platforms";
 
@@ -243,13 +245,6 @@ fn difference(expected: &PlatformAnswer, found: &PlatformAnswer) -> Option<Strin
         (Some(_), None) => Some(format!("{part} is missing")),
         (None, _) => Some(format!("{part} is one more")),
     })
-}
-
-/// Runs a program that must succeed.
-fn command(program: &mut Command) -> Result<(), String> {
-    let name = program.get_program().display().to_string();
-    let status = program.status().map_err(|why| format!("{name}: {why}"))?;
-    if status.success() { Ok(()) } else { Err(format!("{name}: {status}")) }
 }
 
 #[cfg(test)]

@@ -35,7 +35,11 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     // with other settings.
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     command(Command::new(cargo).args(["build", "--workspace"]).current_dir(&root))?;
-    let wheel = wheel(&root, &place, &python)?;
+    let wheels = place.join("wheels");
+    if wheels.exists() {
+        fs::remove_dir_all(&wheels).map_err(|why| format!("{}: {why}", wheels.display()))?;
+    }
+    let wheel = wheel(&root, &wheels, "dev", &python)?;
     let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
     command(Command::new(&python).args(install).arg(&wheel))?;
     let tests = Command::new(&python)
@@ -52,7 +56,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
 }
 
 /// The interpreter of the environment, with all packages that the tests need.
-fn environment(root: &Path, place: &Path) -> Result<PathBuf, String> {
+pub(crate) fn environment(root: &Path, place: &Path) -> Result<PathBuf, String> {
     let requirements = root.join(REQUIREMENTS);
     let list = fs::read_to_string(&requirements)
         .map_err(|why| format!("{}: {why}", requirements.display()))?;
@@ -78,18 +82,21 @@ fn environment(root: &Path, place: &Path) -> Result<PathBuf, String> {
     Ok(python)
 }
 
-/// Builds the wheel and returns its path.
-fn wheel(root: &Path, place: &Path, python: &Path) -> Result<PathBuf, String> {
-    let wheels = place.join("wheels");
-    if wheels.exists() {
-        fs::remove_dir_all(&wheels).map_err(|why| format!("{}: {why}", wheels.display()))?;
-    }
+/// Builds the wheel with a profile into a folder that has none, and returns its path.
+pub(crate) fn wheel(
+    root: &Path,
+    folder: &Path,
+    profile: &str,
+    python: &Path,
+) -> Result<PathBuf, String> {
     let mut maturin = Command::new(python);
-    maturin.args(["-m", "maturin", "build", "--quiet", "--profile", "dev", "--out"]).arg(&wheels);
+    maturin.args(["-m", "maturin", "build", "--quiet", "--profile", profile, "--out"]).arg(folder);
     command(maturin.arg("--interpreter").arg(python).current_dir(root.join(CRATE)))?;
-    let built = wheels.read_dir().map_err(|why| format!("{}: {why}", wheels.display()))?;
-    let paths: Vec<PathBuf> = built.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    match paths.as_slice() {
+    let built = folder.read_dir().map_err(|why| format!("{}: {why}", folder.display()))?;
+    let paths = built.filter_map(|entry| Some(entry.ok()?.path()));
+    let wheels: Vec<PathBuf> =
+        paths.filter(|path| path.extension().is_some_and(|end| end == "whl")).collect();
+    match wheels.as_slice() {
         [wheel] => Ok(wheel.clone()),
         others => Err(format!("maturin built {} wheels, not one", others.len())),
     }
@@ -101,8 +108,8 @@ fn answer(program: &mut Command) -> Option<String> {
     String::from_utf8(output.stdout).ok()
 }
 
-/// Runs a program that must succeed.
-fn command(program: &mut Command) -> Result<(), String> {
+/// Runs a program that must succeed; a failure has its arguments.
+pub(crate) fn command(program: &mut Command) -> Result<(), String> {
     let name = program.get_program().to_string_lossy().into_owned();
     let words: Vec<_> =
         program.get_args().map(|word| word.to_string_lossy().into_owned()).collect();
