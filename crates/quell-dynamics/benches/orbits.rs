@@ -3,6 +3,7 @@
 //! Before criterion measures, two limits are checked, each with the best of five attempts: a local threshold must take less than
 //! 50 ms, a curve of 100 points less than 5 s.
 
+use quell_numerics::interval::RealInterval;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -27,7 +28,7 @@ fn belt(waveform: Waveform, amplitude: f64) -> Belt {
 
 fn both_thresholds(belt: &Belt) -> usize {
     let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0])?.system());
-    branch_thresholds(&at, (0.5, 10.5), 40, None).expect("followed").thresholds.len()
+    branch_thresholds(&at, 0.5, 10.5, 40, None).expect("followed").thresholds.len()
 }
 
 /// Both thresholds of the amplitude over the belt's velocity, and the number of points.
@@ -36,7 +37,12 @@ fn both_curves(belt: &Belt) -> usize {
         let belt = belt.with_belt_velocity(values[1])?;
         Ok(belt.with_amplitude(0, values[0])?.system())
     };
-    let plane = ThresholdPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5), points: 100 };
+    let plane = ThresholdPlane {
+        at: &at,
+        window: RealInterval::new(0.1, 16.0),
+        between: RealInterval::new(0.85, 1.5),
+        points: 100,
+    };
     let found = threshold_curves(&plane, 3).expect("curves").curves;
     found.iter().map(|curve| curve.points.len()).sum()
 }

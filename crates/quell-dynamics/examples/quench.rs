@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --package quell-dynamics --example quench`; the book shows this file and its answer.
 
+use quell_numerics::interval::RealInterval;
 use std::error::Error;
 use std::fmt::Write as _;
 
@@ -34,7 +35,7 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
         writeln!(text, "averaging: {:?} from D = {:.4}", change.becomes, change.amplitude)?;
     }
     let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0])?.system());
-    let found = branch_thresholds(&at, (0.4, 0.6), 64, None)?;
+    let found = branch_thresholds(&at, 0.4, 0.6, 64, None)?;
     for threshold in found.thresholds {
         writeln!(text, "exactly: {} at D = {:.7}", threshold.kind.name(), threshold.value)?;
     }

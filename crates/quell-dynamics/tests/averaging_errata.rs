@@ -4,6 +4,7 @@
 //! which the definition (quadrature) confirms. Unless noted: v_r = 0.08, α = 0.2, the dissertation's parameters.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use quell_numerics::interval::RealInterval;
 
 use quell_dynamics::orbit::ThresholdKind;
 use quell_linear::averaging::{
@@ -369,7 +370,7 @@ fn limit_of_high_frequency_under_normal_dither() {
         // Richardson extrapolation in 1/R² of two orbits, the second at twice the R of the first; the rest is of order 1/R⁴.
         let orbit = |ratio: f64| {
             let belt = belt(damping, v, &law, vec![normal(waveform.clone(), 0.1 * ratio, ratio)]);
-            let range = (0.85 * limit * ratio, limit * ratio);
+            let range = RealInterval::new(0.85 * limit * ratio, limit * ratio);
             let found = local_thresholds(&over_amplitudes(&belt), range, 10);
             let hopf =
                 found.iter().find(|threshold| threshold.kind == ThresholdKind::NeimarkSacker);

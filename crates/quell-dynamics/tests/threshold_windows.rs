@@ -2,13 +2,14 @@
 
 use quell_dynamics::orbit::{BranchEnding, SystemAt, ThresholdKind, branch_thresholds};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{over_amplitudes, over_velocities};
 use quell_zoo::dither::tangential;
 
 /// Thresholds over a window that must be covered.
 fn thresholds(at: &SystemAt<'_>, (from, to): (f64, f64)) -> Vec<(f64, ThresholdKind)> {
-    let found = branch_thresholds(at, (from, to), 40, None)
+    let found = branch_thresholds(at, from, to, 40, None)
         .unwrap_or_else(|why| panic!("{why} {:?}", at(&[from])));
     assert_eq!(found.ending, BranchEnding::Covered, "from {from} to {to}: {:?}", at(&[from]));
     found.thresholds.iter().map(|threshold| (threshold.value, threshold.kind)).collect()

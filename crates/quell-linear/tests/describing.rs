@@ -1,6 +1,7 @@
 //! Describing functions of averaged friction: closed forms, limits, integration by parts.
 
 use core::f64::consts::PI;
+use quell_numerics::interval::RealInterval;
 
 use quell_linear::averaging::{
     Averaging, AveragingError, DescribingFunction, FastMotion, FastWave, criterion, effective,
@@ -114,7 +115,7 @@ fn gain_from_the_slopes() {
     for belt in dithered().into_iter().take(8) {
         let [dither] = belt.dithers() else { panic!("one dither") };
         let wave = FastWave::Integral(dither.waveform.clone());
-        let (low, high) = dither.waveform.integral_range();
+        let RealInterval { lower: low, upper: high } = dither.waveform.integral_range();
         let alpha = dither.amplitude_ratio();
         let motion = FastMotion::of(&belt, 0.1, Averaging::Limit).expect("a motion");
         let single = FastMotion::single(wave, alpha);

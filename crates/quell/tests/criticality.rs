@@ -1,5 +1,6 @@
 //! `attractor --lyapunov` and the criticality of thresholds through the front door.
 
+use quell_numerics::interval::RealInterval;
 use std::fs;
 use std::path::Path;
 
@@ -30,8 +31,11 @@ fn exponents(study: &Study, times: (f64, f64)) -> Json {
 
 fn thresholds(study: &Study, parameter: &str, from: f64, to: f64) -> Json {
     let parameter = parameter.to_owned();
-    let request =
-        ThresholdsRequest { parameter, window: (from, to), ..ThresholdsRequest::default() };
+    let request = ThresholdsRequest {
+        parameter,
+        window: RealInterval::new(from, to),
+        ..ThresholdsRequest::default()
+    };
     verbs(study).thresholds(&request).unwrap_or_else(|why| panic!("{why:?}")).json()
 }
 

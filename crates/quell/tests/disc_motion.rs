@@ -1,5 +1,6 @@
 //! `simulate` of discs: growth as `stability` gives it, limit cycles with separation, and loads that nothing bounds.
 
+use quell_numerics::interval::RealInterval;
 use std::path::Path;
 
 use quell::run::disc::{motion, stability};
@@ -136,7 +137,8 @@ fn a_window_of_a_run() {
         let request = ResponseRequest { window: Some(window), ..ResponseRequest::default() };
         number(&verbs(&any).response(&request).expect("a window").json(), "amplitude")
     };
-    let (early, late) = (within((0.0, 20.0)), within((40.0, 60.0)));
+    let (early, late) =
+        (within(RealInterval::new(0.0, 20.0)), within(RealInterval::new(40.0, 60.0)));
     assert!(early > 0.0 && late != early, "{early} {late}");
     assert!(verbs(&any).response(&ResponseRequest::default()).is_err());
 }

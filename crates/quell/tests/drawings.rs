@@ -1,5 +1,6 @@
 //! Each verb draws what it answers: compares the numbers of its picture with those of its JSON.
 
+use quell_numerics::interval::RealInterval;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -60,7 +61,7 @@ fn thresholds_are_marked_where_they_are() {
     let study = belt("can-dither-make-it-worse.toml", &[]);
     let question = thresholds::ThresholdsRequest {
         parameter: "dither.amplitude".into(),
-        window: (4.0, 10.5),
+        window: RealInterval::new(4.0, 10.5),
         protocols: vec![Protocol::Sliding],
         ..thresholds::ThresholdsRequest::default()
     };
@@ -100,9 +101,9 @@ fn curves_of_thresholds_are_drawn_point_by_point() {
     let study = belt("can-dither-make-it-worse.toml", &[]);
     let question = curves::CurvesRequest {
         parameter: "dither.amplitude".into(),
-        window: (0.1, 16.0),
+        window: RealInterval::new(0.1, 16.0),
         along: "belt.belt_velocity".into(),
-        between: (0.85, 1.5),
+        between: RealInterval::new(0.85, 1.5),
     };
     let study = system_of(&(&study).into(), "thresholds").expect("a system");
     let done = curves::run(&study, &question).expect("an answer");

@@ -1,6 +1,7 @@
 //! Maps, comparisons of waveforms and designs of contacts with a state of their own: the answers are those of the single verbs, and
 //! averages, which do not know the state, say so.
 
+use quell_numerics::interval::RealInterval;
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
@@ -345,7 +346,7 @@ fn waveforms_know_the_state_in_their_exact_amplitudes() {
 fn assert_near_a_threshold(law: (&str, &str), amplitude: f64) {
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        window: (0.9 * amplitude, 1.1 * amplitude),
+        window: RealInterval::new(0.9 * amplitude, 1.1 * amplitude),
         near: None,
         protocols: Vec::<Protocol>::new(),
         ramp: 0.0,

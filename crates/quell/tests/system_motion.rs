@@ -1,5 +1,6 @@
 //! The verbs of systems that follow periodic motions, through the front door, against numbers computed by independent programs.
 
+use quell_numerics::interval::RealInterval;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -179,7 +180,7 @@ fn thresholds(text: &str, request: &ThresholdsRequest) -> Json {
 fn request_of(case: &Json) -> ThresholdsRequest {
     ThresholdsRequest {
         parameter: case["parameter"].as_str().expect("a path").to_owned(),
-        window: (number(&case["from"]), number(&case["to"])),
+        window: RealInterval::new(number(&case["from"]), number(&case["to"])),
         ..ThresholdsRequest::default()
     }
 }

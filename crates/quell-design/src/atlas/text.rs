@@ -4,6 +4,7 @@
 //! by `table LAW WAVEFORM SURFACE`, and followed by its values, one a line, the last axis fastest. After the tables come their errors:
 //! `error LAW WAVEFORM SURFACE LOW HIGH POINTS MEDIAN P90 LARGEST`, where LOW and HIGH are a band of ζ_f/R.
 
+use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 
 use quell_model::Waveform;
@@ -90,7 +91,9 @@ impl Atlas {
     pub fn text(&self) -> String {
         let mut text = format!("{HEADING}\n");
         for table in &self.tables {
-            for AtlasAxis { name, range: (low, high), count } in table.surface.axes(table.law) {
+            for AtlasAxis { name, range: RealInterval { lower: low, upper: high }, count } in
+                table.surface.axes(table.law)
+            {
                 let _ = writeln!(text, "axis {name} {low} {high} {count}");
             }
             let AtlasTable { law, waveform, surface, values } = table;
@@ -102,7 +105,7 @@ impl Atlas {
         }
         for AtlasErrors { law, waveform, surface, band, points, quantiles } in &self.errors {
             let (law, waveform, surface) = (law.name(), waveform.name(), surface.name());
-            let (low, high) = band;
+            let RealInterval { lower: low, upper: high } = band;
             let [median, high_quantile, largest] = quantiles;
             let _ = writeln!(
                 text,
@@ -150,7 +153,11 @@ impl AtlasReader {
             ["axis", name, low, high, count] => {
                 let count = count.parse().ok().filter(|count| *count > 0);
                 let count = count.ok_or(AtlasExpected::Nodes)?;
-                self.axes.push(AtlasAxis::new(name, (number(low)?, number(high)?), count));
+                self.axes.push(AtlasAxis::new(
+                    name,
+                    RealInterval::new(number(low)?, number(high)?),
+                    count,
+                ));
                 Ok(())
             }
             ["table", law, waveform, surface] => self.table(law, waveform, surface),
@@ -161,7 +168,7 @@ impl AtlasReader {
                     law,
                     waveform,
                     surface,
-                    band: (number(low)?, number(high)?),
+                    band: RealInterval::new(number(low)?, number(high)?),
                     points: points.parse().map_err(|_| AtlasExpected::Points)?,
                     quantiles: [number(median)?, number(most)?, number(largest)?],
                 });
@@ -231,8 +238,14 @@ mod tests {
         let values: Vec<f64> = (0..count).map(|index| 1.0 + index as f64 / 1024.0).collect();
         let table = AtlasTable { law, waveform: waveform.clone(), surface, values };
         let quantiles = [1e-8, 2e-7, 3e-6];
-        let errors =
-            AtlasErrors { law, waveform, surface, band: (0.0, 0.02), points: 9, quantiles };
+        let errors = AtlasErrors {
+            law,
+            waveform,
+            surface,
+            band: RealInterval::new(0.0, 0.02),
+            points: 9,
+            quantiles,
+        };
         let atlas = Atlas { tables: vec![table], errors: vec![errors] };
         let text = atlas.text();
         let read = Atlas::parse(&text).expect("an atlas");

@@ -1,5 +1,6 @@
 //! The motion on which a run of any system ends: the one judge of it for every verb.
 
+use quell_numerics::interval::RealInterval;
 use std::fmt;
 
 use quell_linear::pure_slip::period;
@@ -251,7 +252,7 @@ fn of_one_mass(
         rotation: found.rotation,
         slow: found.rotation.map(|rotation| rate(rotation.turns_per_period)),
         state: at,
-        extremes: (ends[0].min(ends[1]), ends[0].max(ends[1])),
+        extremes: RealInterval::new(ends[0].min(ends[1]), ends[0].max(ends[1])),
         stick: vec![found.stick_fraction],
         ..seen
     })

@@ -4,6 +4,7 @@
 //! threshold on a known curve is not followed again. A curve that crosses none of the lines is missed.
 //! The scheme is that of [`quell_numerics::continuation::curve`]; [`threshold_curves`](super::threshold_curves) finds them.
 
+use quell_numerics::interval::RealInterval;
 use std::fmt;
 
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
@@ -154,8 +155,8 @@ impl fmt::Display for OpenLine {
 impl std::error::Error for OpenLine {}
 
 /// Whether a curve already passes through a threshold on a line.
-pub(super) fn passes(curve: &ThresholdCurve, value: f64, along: f64, window: (f64, f64)) -> bool {
-    let width = window.1 - window.0;
+pub(super) fn passes(curve: &ThresholdCurve, value: f64, along: f64, window: RealInterval) -> bool {
+    let width = window.width();
     curve.points.windows(2).any(|pair| {
         let (a, b) = (&pair[0], &pair[1]);
         let share = (along - a.along) / (b.along - a.along);

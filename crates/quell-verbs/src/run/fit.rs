@@ -3,6 +3,7 @@
 //! Laws are odd in the slip velocity. The sign that a file gives the coefficient is found for each direction of slip: friction has
 //! the sign of the majority there. Points at rest are left out, because friction there may have any value up to the static level.
 
+use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -342,7 +343,7 @@ impl FrictionFit {
         let slowest = speeds().fold(f64::INFINITY, f64::min);
         let fastest = speeds().fold(0.0, f64::max);
         let count = if slowest < fastest { count } else { 1 };
-        let speeds = super::evenly((slowest, fastest), count);
+        let speeds = super::evenly(RealInterval::new(slowest, fastest), count);
         let t = self.quantile(fit);
         let of = |side: f64| -> Vec<f64> {
             let at = |v: &f64| fit.coefficient(*v) + side * t * fit.standard_deviation(*v);

@@ -16,6 +16,7 @@
 //! with a viscous part to 1 % of its fall; the cubic (2.7) up to 1.5 v_m to 1.2·10⁻³. The latter would be 1.5·10⁻² with decay
 //! lengths up to half the range, and 2.5·10⁻⁴ with lengths up to twice the range, but then it rises to μ = 11 beyond.
 
+use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 
 use quell_numerics::least_squares::least_squares;
@@ -65,7 +66,7 @@ pub struct Fit {
     /// Number of samples.
     pub samples: usize,
     /// Smallest and largest slip speed of the samples.
-    pub range: (f64, f64),
+    pub range: RealInterval,
 }
 
 impl Fit {
@@ -169,7 +170,7 @@ impl Problem<'_> {
             left_out_error: rms(left_out.sum()),
             pinned: self.pin.is_some(),
             samples: self.samples.len(),
-            range: (low, high),
+            range: RealInterval::new(low, high),
         })
     }
 

@@ -15,6 +15,7 @@ mod starts;
 #[cfg(test)]
 mod tests;
 
+use quell_numerics::interval::RealInterval;
 use std::sync::atomic::Ordering;
 
 use quell_dynamics::attractor::{
@@ -107,7 +108,7 @@ pub struct Basins {
     /// Their places in the state.
     pub places: [usize; 2],
     /// Least and largest value of each axis.
-    pub windows: [(f64, f64); 2],
+    pub windows: [RealInterval; 2],
     /// Layout of the starts.
     pub layout: StartLayout,
     /// The values of both axes at each start; on a grid the first axis runs fastest.
@@ -129,7 +130,11 @@ fn values(
     let Some(Range { parameter, from, to, points }) = over else { return Ok(vec![None]) };
     understood(
         study,
-        &TrackRequest { parameter: parameter.clone(), window: (*from, *to), along: None },
+        &TrackRequest {
+            parameter: parameter.clone(),
+            window: RealInterval::new(*from, *to),
+            along: None,
+        },
     )
     .map_err(|why| renamed(why, "--parameter", "--over"))?;
     if !(2..=MOST_VALUES).contains(points) {
@@ -142,7 +147,7 @@ fn values(
         );
         return Err(Complaint::option("--points", *points, allowed).into());
     }
-    Ok(evenly((*from, *to), *points).into_iter().map(Some).collect())
+    Ok(evenly(RealInterval::new(*from, *to), *points).into_iter().map(Some).collect())
 }
 
 /// Complaints about one option as those about another.

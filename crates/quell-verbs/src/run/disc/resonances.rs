@@ -1,6 +1,7 @@
 //! `resonances`: where waves of the disc meet, which pairs can be unstable at the order of the theory, where motions grow by the exact
 //! equations, and which dither frequencies keep a range of speeds clear.
 
+use quell_numerics::interval::RealInterval;
 use std::ops::RangeInclusive;
 
 use quell_disc::growing::{GrowingSpeeds, growing_speeds};
@@ -43,23 +44,24 @@ impl ResonancesRequest {
     /// # Errors
     /// Every complaint at once.
     pub fn new(
-        speeds: (f64, f64),
+        speeds: RealInterval,
         order: Order,
-        clear: Option<(f64, f64)>,
-        frequency: Option<(f64, f64)>,
+        clear: Option<RealInterval>,
+        frequency: Option<RealInterval>,
     ) -> Result<Self, Complaints> {
         let mut wrong = Vec::new();
-        let mut range = |option, bounds: Bounds, (from, to): (f64, f64)| {
-            let given = || format!("{from}:{to}");
-            if !(from.is_finite() && to.is_finite() && from <= to) {
-                let allowed = "FROM:TO, two finite numbers, the first at most the second";
-                wrong.push(Complaint::option(option, given(), allowed));
-            } else if !(bounds.contains(from) && bounds.contains(to)) {
-                let allowed = format!("a range with both ends {bounds}");
-                wrong.push(Complaint::option(option, given(), allowed));
-            }
-            from..=to
-        };
+        let mut range =
+            |option, bounds: Bounds, RealInterval { lower: from, upper: to }: RealInterval| {
+                let given = || format!("{from}:{to}");
+                if !(from.is_finite() && to.is_finite() && from <= to) {
+                    let allowed = "FROM:TO, two finite numbers, the first at most the second";
+                    wrong.push(Complaint::option(option, given(), allowed));
+                } else if !(bounds.contains(from) && bounds.contains(to)) {
+                    let allowed = format!("a range with both ends {bounds}");
+                    wrong.push(Complaint::option(option, given(), allowed));
+                }
+                from..=to
+            };
         let speeds = range("--speeds", Bounds::FINITE, speeds);
         let wanted = clear.map(|ends| range("--clear", Bounds::FINITE, ends));
         let frequencies =
@@ -67,7 +69,7 @@ impl ResonancesRequest {
         for (option, one, other) in
             [("--clear", clear, frequency.is_none()), ("--frequency", frequency, clear.is_none())]
         {
-            if let Some((from, to)) = one
+            if let Some(RealInterval { lower: from, upper: to }) = one
                 && other
             {
                 let allowed = "--clear and --frequency must be given together";

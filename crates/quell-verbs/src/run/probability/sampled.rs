@@ -1,5 +1,6 @@
 //! The kinds of study whose numbers can be uncertain, and the judges of one sample.
 
+use quell_numerics::interval::RealInterval;
 use std::fmt::Display;
 
 use quell_design::least_dither::averaged_quiet;
@@ -174,7 +175,7 @@ impl SampledKind for SystemStudy {
         if exactly {
             return Ok(least_quiet(system, input)?);
         }
-        let quiet = averaged_quiet(system, input, (0.0, f64::INFINITY))?;
+        let quiet = averaged_quiet(system, input, RealInterval::new(0.0, f64::INFINITY))?;
         Ok(quiet.least_from(0.0).unwrap_or(f64::INFINITY))
     }
 

@@ -1,6 +1,7 @@
 //! What a ramp changes: the velocity of a surface, the load of a contact, or the amplitude of a dither; its run, and the thresholds over
 //! the values that it passes.
 
+use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
 
 use quell_dynamics::orbit::BranchEnding;
@@ -43,7 +44,7 @@ pub fn run(study: &SystemStudy) -> Result<Ramp, Failure> {
         times: times.to_vec(),
         displacement: states.clone().map(observed).collect(),
         velocity: is_mechanical.then(|| states.map(|state| rate_of(&row, state)).collect()),
-        period: natural_period(study, (run.start.time, until)),
+        period: natural_period(study, RealInterval::new(run.start.time, until)),
         fast: acting.map(Wave::repetition).reduce(f64::min).map(|rate| TAU / rate),
     };
     let thresholds = thresholds(study, &ramped);

@@ -3,6 +3,7 @@
 use quell_model::parameter::{NORMAL_STIFFNESS, TANGENTIAL_STIFFNESS};
 use quell_model::units::Quantity;
 use quell_model::{Direction, Profile};
+use quell_numerics::interval::RealInterval;
 
 use super::actuator;
 use super::contact_state::StateMark;
@@ -204,7 +205,7 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
     let over_time = |letter: &str, quantity, value, profile: Option<&Profile>| match profile {
         None => equal(letter, quantity, value),
         Some(profile) => {
-            let (least, largest) = profile.bounds();
+            let RealInterval { lower: least, upper: largest } = profile.bounds();
             format!(
                 "{} to {} over time",
                 equal(letter, quantity, least),
