@@ -6,7 +6,6 @@
 //! cycle, and the verdict hardly changes), the last change by averaging, and the largest static friction of a contact, which a slow force
 //! has to overcome. The dither of a prescribed load may at most lift it.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt;
 
 use quell_dynamics::orbit::{NoOrbit, ThresholdKind, sliding_state};
@@ -14,6 +13,7 @@ use quell_linear::averaging::{AveragingError, DitheredSystem};
 use quell_model::profile::Wave;
 use quell_model::system::{Input, InputTarget};
 use quell_model::{Dither, System};
+use quell_numerics::interval::RealInterval;
 
 use crate::least_dither::{
     AmplitudeBranch, QuietAmplitudes, QuietChange, amplitude_branch, averaged_quiet,

@@ -140,7 +140,7 @@ fn a_narrow_tongue_is_not_missed() {
     for point in &loud {
         assert!(growth(&at(&disc, point[0], 1.0, None)) > 0.0);
         // A grid of 33 points has none in it.
-        let step = (speeds.upper - speeds.lower) / 32.0;
+        let step = speeds.width() / 32.0;
         let nearest = ((point[0] - speeds.lower) / step).round().mul_add(step, speeds.lower);
         assert!(growth(&at(&disc, nearest, 1.0, None)) < 0.0);
     }

@@ -8,11 +8,11 @@
 //! has points in and next to every predicted tongue.
 
 use core::ops::RangeInclusive;
-use quell_numerics::interval::RealInterval;
 
 use quell_linear::floquet::NotFollowerDither;
 use quell_model::Disc;
 use quell_numerics::eigen::EigenError;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 use quell_numerics::roots::{Closeness, minimise};
 

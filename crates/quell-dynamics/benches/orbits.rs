@@ -3,7 +3,6 @@
 //! Before criterion measures, two limits are checked, each with the best of five attempts: a local threshold must take less than
 //! 50 ms, a curve of 100 points less than 5 s.
 
-use quell_numerics::interval::RealInterval;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -12,6 +11,7 @@ use quell_dynamics::orbit::{
     ThresholdPlane, base_response, branch_thresholds, near, threshold_curves,
 };
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 
 fn belt(waveform: Waveform, amplitude: f64) -> Belt {
     let friction = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("a valid law");

@@ -2,7 +2,6 @@
 //!
 //! `cargo run --release --package quell-dynamics --example quench`; the book shows this file and its answer.
 
-use quell_numerics::interval::RealInterval;
 use std::error::Error;
 use std::fmt::Write as _;
 
@@ -11,6 +10,7 @@ use quell_dynamics::response::{ResponsePlan, Solver, respond};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Averaging, critical_amplitudes};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 
 /// The answer as text.
 ///

@@ -4,7 +4,6 @@
 //! which the definition (quadrature) confirms. Unless noted: v_r = 0.08, α = 0.2, the dissertation's parameters.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use quell_numerics::interval::RealInterval;
 
 use quell_dynamics::orbit::ThresholdKind;
 use quell_linear::averaging::{
@@ -12,6 +11,7 @@ use quell_linear::averaging::{
     effective, effective_by_quadrature, everywhere_stable_amplitude,
 };
 use quell_model::{Direction, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::special::{dawson, erf, exp, ln};
 use quell_zoo::belt::{belt, decreasing_under, over_amplitudes};

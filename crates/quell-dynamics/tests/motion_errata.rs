@@ -2,11 +2,11 @@
 //! and orbits.
 
 use core::f64::consts::TAU;
-use quell_numerics::interval::RealInterval;
 
 use quell_dynamics::response::{PEAK_FLOOR, Solver};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_model::{Belt, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{self, chapter_4, over_amplitudes, stribeck_under};
 use quell_zoo::dither::{normal, sine};

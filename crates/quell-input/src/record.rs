@@ -10,10 +10,10 @@
 //! Units are those of [`crate::columns`], as suffix of the name (`time_ms`), at its end or in a line: such numbers are converted to SI. Lines with a gap are
 //! left out. Every invalid cell is reported with its line.
 
-use quell_numerics::interval::RealInterval;
 use std::path::{Path, PathBuf};
 
 use quell_model::RecordedQuantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 
 use crate::columns::{ColumnChoice, FoundColumn, WantedColumn};

@@ -1,13 +1,13 @@
 //! Describing functions of averaged friction: closed forms, limits, integration by parts.
 
 use core::f64::consts::PI;
-use quell_numerics::interval::RealInterval;
 
 use quell_linear::averaging::{
     Averaging, AveragingError, DescribingFunction, FastMotion, FastWave, criterion, effective,
 };
 use quell_model::waveform::Burst;
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{belt, undithered_belt};

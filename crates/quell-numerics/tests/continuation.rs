@@ -1,6 +1,5 @@
 //! Fixed points, thresholds and their curves against exact solutions.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::FRAC_PI_3;
 
 use quell_numerics::continuation::branch::{End, Follow, SpecialPoint, follow};
@@ -8,6 +7,7 @@ use quell_numerics::continuation::curve::{BifurcationCurve, CurveEnd, Trace, tra
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 use quell_numerics::continuation::threshold::BifurcationKind;
 use quell_numerics::continuation::{Image, PeriodMap};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 
 /// Hénon's map (x, y) → (1 − a x² + y, b x), parameters a and then b.

@@ -1,10 +1,10 @@
 //! Valid and invalid studies: the values that are read, and the errors that are reported.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use quell_study::study::{Axis, SystemStart};
 use quell_study::{BeltStudy, Change, Complaints, DiscStudy, Fault, Study};
 

@@ -1,6 +1,5 @@
 //! `attractor --lyapunov` and the criticality of thresholds through the front door.
 
-use quell_numerics::interval::RealInterval;
 use std::fs;
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use quell::run::exponents::ExponentTimes;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {

@@ -1,6 +1,5 @@
 //! `simulate` of discs: growth as `stability` gives it, limit cycles with separation, and loads that nothing bounds.
 
-use quell_numerics::interval::RealInterval;
 use std::path::Path;
 
 use quell::run::disc::{motion, stability};
@@ -9,6 +8,7 @@ use quell::run::simulate::MotionRequest;
 use quell::run::system::start::read_state;
 use quell::study::{DiscStudy, Study};
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 const PLATE: &str = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n";

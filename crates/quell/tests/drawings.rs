@@ -1,6 +1,5 @@
 //! Each verb draws what it answers: compares the numbers of its picture with those of its JSON.
 
-use quell_numerics::interval::RealInterval;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -17,6 +16,7 @@ use quell::run::varied::Range;
 use quell::running::Running;
 use quell::verbs::{system_of, verbs};
 use quell::{BeltStudy, Change, DiscStudy, Study, picture};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn path(name: &str) -> std::path::PathBuf {

@@ -1,6 +1,5 @@
 //! First sentences against the tables and the JSON that follow them.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::sync::atomic::AtomicBool;
@@ -14,6 +13,7 @@ use quell::run::response::ResponseRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::study::Change;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::random::SplitMix;
 use serde_json::Value as Json;
 

@@ -1,7 +1,6 @@
 //! Maps, comparisons of waveforms and designs of contacts with a state of their own: the answers are those of the single verbs, and
 //! averages, which do not know the state, say so.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
@@ -13,6 +12,7 @@ use quell::run::thresholds::ThresholdsRequest;
 use quell::running::Running;
 use quell::sweep::{MapQuantity, Plan, QUANTITIES};
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {

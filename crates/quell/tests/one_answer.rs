@@ -1,6 +1,5 @@
 //! Verbs that could contradict each other about one study, found by readers from outside.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
@@ -13,6 +12,7 @@ use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::verbs;
 use quell_design::quench::quench;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {

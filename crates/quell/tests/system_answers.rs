@@ -1,6 +1,5 @@
 //! What answers about systems say where a verdict does not hold as stated, where numbers overflow, and where input is unlikely.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
@@ -11,6 +10,7 @@ use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::verbs;
 use quell_linear::averaging::AveragingError;
 use quell_linear::linearised::NoSteadySliding;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {

@@ -1,6 +1,5 @@
 //! The verbs of systems that follow periodic motions, through the front door, against numbers computed by independent programs.
 
-use quell_numerics::interval::RealInterval;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -14,6 +13,7 @@ use quell::run::thresholds::ThresholdsRequest;
 use quell::run::varied::Range;
 use quell::running::Running;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 /// Accuracy of states and event times.

@@ -1,6 +1,5 @@
 //! Verbs of systems over a parameter and in planes, against the same belt, and against planted answers.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::atomic::AtomicBool;
 
 use quell::Study;
@@ -15,6 +14,7 @@ use quell::run::thresholds::curves::CurvesRequest;
 use quell::run::varied::Range;
 use quell::running::Running;
 use quell::verbs::{system_of, verbs};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 const LAW: &str =

@@ -1,6 +1,5 @@
 //! Systems against numbers computed by independent programs, and by two methods of our own.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -8,6 +7,7 @@ use std::path::Path;
 use quell::run::system::tracked::TrackRequest;
 use quell::verbs::verbs;
 use quell::{Change, Study};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn reference() -> Json {

@@ -7,6 +7,7 @@
 //! the tables.
 
 use core::f64::consts::PI;
+
 use quell_numerics::interval::RealInterval;
 
 /// An axis of a table.

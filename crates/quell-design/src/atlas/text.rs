@@ -4,10 +4,10 @@
 //! by `table LAW WAVEFORM SURFACE`, and followed by its values, one a line, the last axis fastest. After the tables come their errors:
 //! `error LAW WAVEFORM SURFACE LOW HIGH POINTS MEDIAN P90 LARGEST`, where LOW and HIGH are a band of ζ_f/R.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 
 use quell_model::Waveform;
+use quell_numerics::interval::RealInterval;
 
 use super::grid::AtlasAxis;
 use super::{Atlas, AtlasErrors, AtlasLaw, AtlasSurface, AtlasTable};
@@ -91,10 +91,8 @@ impl Atlas {
     pub fn text(&self) -> String {
         let mut text = format!("{HEADING}\n");
         for table in &self.tables {
-            for AtlasAxis { name, range: RealInterval { lower: low, upper: high }, count } in
-                table.surface.axes(table.law)
-            {
-                let _ = writeln!(text, "axis {name} {low} {high} {count}");
+            for AtlasAxis { name, range, count } in table.surface.axes(table.law) {
+                let _ = writeln!(text, "axis {name} {} {} {count}", range.lower, range.upper);
             }
             let AtlasTable { law, waveform, surface, values } = table;
             let (law, waveform, surface) = (law.name(), waveform.name(), surface.name());

@@ -4,10 +4,10 @@
 //! constant, whose amplitude Aₖ is that of the envelope. Viscous damping gives ln Aₖ = a − ζω tₖ (the logarithmic decrement), friction
 //! Aₖ = a − (2d ω/π) tₖ. These are only starts.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::PI;
 
 use quell_model::RecordedQuantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::least_squares::least_squares;
 use quell_numerics::spectrum::Spectrum;
 

@@ -4,9 +4,9 @@
 //! A loud interval between two points of a grid is a dip of that distance, or a peak of the multipliers, whose flanks reach the points
 //! next to it. A resonance or an antiresonance of the structure has flanks of any width. What has none is not found.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::Mutex;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, descending_by};
 use quell_numerics::roots::{Closeness, minimise};
 

@@ -5,9 +5,9 @@
 //! seen, could lie within the interval of the quantile. Half of the range of the ratios is added on both sides. Where that range is
 //! narrow, averaging with its upper end decides about the others, so that the quantile may be too large by that range, never too small.
 
-use quell_numerics::interval::RealInterval;
 use std::collections::BTreeMap;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, ascending_by};
 
 use super::exact_box::{ExactBox, Near, QuietSet, WINDOW};

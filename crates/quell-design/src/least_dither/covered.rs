@@ -4,9 +4,9 @@
 //! Averaging ranks dithers by the length of that part: on a grid over the box first, then with ends of their own, so that the best
 //! amplitude does not depend on the points of the grid. Exact responses then decide ([`super::served_part`]).
 
-use quell_numerics::interval::RealInterval;
 use std::fmt;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, descending_by};
 use quell_numerics::roots::{Closeness, minimise};
 

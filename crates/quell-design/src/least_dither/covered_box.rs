@@ -41,7 +41,7 @@ impl CoveredBox {
     }
 
     pub(super) fn length(&self) -> f64 {
-        self.ends.upper - self.ends.lower
+        self.ends.width()
     }
 }
 

@@ -4,7 +4,6 @@
 //! point itself may move: its effect is of second order). At a tip, where two thresholds meet inside the box, the tip moves, and the
 //! derivatives are those of the amplitude of the tip: the operating point is determined by the two thresholds together.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt;
 
 use quell_dynamics::orbit::{
@@ -12,6 +11,7 @@ use quell_dynamics::orbit::{
 };
 use quell_model::{RefusedNumbers, System};
 use quell_numerics::continuation::sensitivity::NoSensitivity;
+use quell_numerics::interval::RealInterval;
 
 /// Half the window in which the threshold is located again, relative to the amplitude.
 const WINDOW: f64 = 5e-3;

@@ -1,7 +1,8 @@
 //! The verification of a least dither by exact responses over the box, and its loss of friction there.
 
-use quell_numerics::interval::RealInterval;
 use std::cmp::Ordering;
+
+use quell_numerics::interval::RealInterval;
 
 use super::between_points::Towards;
 use super::no_design::NoDesign;

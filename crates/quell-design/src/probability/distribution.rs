@@ -1,7 +1,8 @@
 //! The distribution of one parameter.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::FRAC_1_SQRT_2;
+
+use quell_numerics::interval::RealInterval;
 
 /// A distribution of one parameter, in the unit of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]

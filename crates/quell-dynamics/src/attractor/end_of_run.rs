@@ -1,11 +1,11 @@
 //! The motion on which a run of any system ends: the one judge of it for every verb.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt;
 
 use quell_linear::pure_slip::period;
 use quell_model::digits::digits;
 use quell_model::{OneMass, System};
+use quell_numerics::interval::RealInterval;
 
 use super::measure::{Attractor, AttractorKind, measure};
 use super::settings::AttractorSettings;

@@ -8,9 +8,9 @@
 //! [`LyapunovExponent::Erased`]. The error is the standard error of the mean over [`BLOCKS`] blocks: it does not see a transient that is
 //! longer than the run.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::descending_by;
 
 use super::variation::MotionVariation;

@@ -73,10 +73,10 @@ mod stuck;
 mod transitions;
 mod variation;
 
-use quell_numerics::interval::RealInterval;
 use std::sync::OnceLock;
 
 use quell_model::{OneMass, Profile, System};
+use quell_numerics::interval::RealInterval;
 
 use engine::MotionRun;
 use equations::MotionEquations;

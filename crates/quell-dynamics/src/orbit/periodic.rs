@@ -1,6 +1,5 @@
 //! A periodic motion: found near a state, or continued from steady sliding as the dither grows.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt;
 
 use num_complex::Complex64;
@@ -9,6 +8,7 @@ use quell_model::System;
 use quell_numerics::continuation::branch::{End, Follow, follow};
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 use quell_numerics::continuation::{modulus, multipliers, spectral_radius};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 
 pub(crate) use super::family::scale_of;

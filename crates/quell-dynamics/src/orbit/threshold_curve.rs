@@ -4,7 +4,6 @@
 //! threshold on a known curve is not followed again. A curve that crosses none of the lines is missed.
 //! The scheme is that of [`quell_numerics::continuation::curve`]; [`threshold_curves`](super::threshold_curves) finds them.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt;
 
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
@@ -13,6 +12,7 @@ use quell_numerics::continuation::curve::{
 };
 use quell_numerics::continuation::fold::FoldCoefficient;
 use quell_numerics::continuation::spectral_radius;
+use quell_numerics::interval::RealInterval;
 
 use super::NoOrbit;
 use super::threshold_kind::ThresholdKind;

@@ -1,7 +1,8 @@
 //! A number over time, given at knots: straight or smooth between them.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::Arc;
+
+use quell_numerics::interval::RealInterval;
 
 use crate::Invalid;
 

@@ -1,7 +1,8 @@
 //! A sum of harmonics: g = Σ (s_n sin nθ + c_n cos nθ).
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
+
+use quell_numerics::interval::RealInterval;
 
 use super::WaveformError;
 

@@ -15,9 +15,10 @@
 //! | `coefficients` | Fourier coefficients of all of them, in closed form |
 //! | `shape`, `table` | breaks, pieces and averages: of constants, and computed from pieces |
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
+
+use quell_numerics::interval::RealInterval;
 
 mod burst;
 mod coefficients;

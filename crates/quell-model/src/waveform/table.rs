@@ -1,7 +1,8 @@
 //! A waveform of pieces: its zero-mean integral and its averages, computed from the pieces in closed form.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::PI;
+
+use quell_numerics::interval::RealInterval;
 
 use super::shape::Piece;
 

@@ -186,7 +186,7 @@ pub(super) fn friction_alone(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             .map_err(|_| failed("claims", &"a disc of chapter 5 is not valid"))?;
         let mut most = f64::NEG_INFINITY;
         for k in 1..=200 {
-            let speed = range.lower + (range.upper - range.lower) * f64::from(k) / 201.0;
+            let speed = range.lower + range.width() * f64::from(k) / 201.0;
             let found =
                 undithered::growth(&at(&loaded, speed)?).map_err(|why| failed("claims", &why))?;
             most = most.max(found.rate);

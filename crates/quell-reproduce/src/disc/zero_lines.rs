@@ -5,7 +5,6 @@
 //! every interval of growth is followed down to a small friction, and its centre and edges join the speeds
 //! ([`speeds_of_tongues`]).
 
-use quell_numerics::interval::RealInterval;
 use std::ops::RangeInclusive;
 
 use quell::complaint::Failure;
@@ -13,6 +12,7 @@ use quell::parallel::Parallel;
 use quell::plot::{PlotPoint, isolines};
 use quell_disc::resonance::{Resonance, Waves};
 use quell_model::Disc;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 use quell_numerics::roots::{Closeness, try_find_root};
 

@@ -1,12 +1,12 @@
 //! Warnings about numbers that are valid but look as if they were in other units.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
 
 use quell_model::System;
 use quell_model::digits::digits;
 use quell_model::system::{MassMatrix, Mechanical};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 
 use quell_model::units::UnitSystem;
@@ -145,7 +145,7 @@ fn of_modes(system: &System, mechanical: &Mechanical, units: UnitSystem) -> Vec<
         let spring = contact.normal.as_deref().and_then(|row| mass_along(mass, row));
         let spring = spring.map(|own| (contact.normal_stiffness / own).sqrt() / highest);
         let name = &contact.name;
-        if !(MASSES_OF_MODES.lower..=MASSES_OF_MODES.upper).contains(&in_kilograms) {
+        if !MASSES_OF_MODES.contains(in_kilograms) {
             warnings.push(format!(
                 "the modes have a mass of {in_kilograms:.3e} kg at contact {name}: {question}"
             ));

@@ -3,7 +3,6 @@
 //! Laws are odd in the slip velocity. The sign that a file gives the coefficient is found for each direction of slip: friction has
 //! the sign of the majority there. Points at rest are left out, because friction there may have any value up to the static level.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -16,6 +15,7 @@ use quell_model::InvalidValues;
 use quell_model::friction::LawKind;
 use quell_model::parameter::Parameter;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 

@@ -1,9 +1,9 @@
 //! `orbit`: the periodic response and its Floquet multipliers.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::Presented;

@@ -1,9 +1,9 @@
 //! `thresholds`: values of a parameter at which the response changes, and curves of thresholds in two parameters.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 
 use quell_dynamics::orbit::ThresholdCurveEnd;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::Presented;

@@ -1,6 +1,5 @@
 //! A manoeuvre: drive, load, dither, response and spectrogram over one time axis.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
 
 use quell_dynamics::motion::MotionSampler;
@@ -8,6 +7,7 @@ use quell_model::profile::{Knots, Wave};
 use quell_model::system::{InputTarget, Mechanical};
 use quell_model::units::Quantity;
 use quell_model::{Input, Profile, System};
+use quell_numerics::interval::RealInterval;
 
 use super::ruler::Ruler;
 use crate::plot::{

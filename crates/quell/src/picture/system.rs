@@ -1,8 +1,8 @@
 //! Pictures of a system: eigenvalues, how they move with a parameter, and the reach of dither.
 
-use quell_numerics::interval::RealInterval;
 use std::collections::BTreeMap;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 
 use super::frame::filled;

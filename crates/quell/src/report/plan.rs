@@ -1,10 +1,10 @@
 //! The verbs of a report with their requests.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::atomic::AtomicBool;
 
 use quell_model::parameter::indexed;
 use quell_model::system::Input;
+use quell_numerics::interval::RealInterval;
 
 use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;

@@ -16,9 +16,9 @@
 //! with a viscous part to 1 % of its fall; the cubic (2.7) up to 1.5 v_m to 1.2·10⁻³. The latter would be 1.5·10⁻² with decay
 //! lengths up to half the range, and 2.5·10⁻⁴ with lengths up to twice the range, but then it rises to μ = 11 beyond.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::least_squares::least_squares;
 
 /// Maximum number of terms; more terms are slower and fit noise.

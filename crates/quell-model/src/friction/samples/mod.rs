@@ -7,9 +7,9 @@
 //! Limits: friction is assumed odd, with one curve for both directions of slip; samples at negative
 //! slip are rejected.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::Arc;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 
 use super::numeric::not_a_number_of;

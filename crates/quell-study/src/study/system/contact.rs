@@ -1,6 +1,5 @@
 //! `[[contact]]`: rows, load, moving surface and friction law.
 
-use quell_numerics::interval::RealInterval;
 use std::sync::Arc;
 
 use quell_input::complaint::{Complaint, Fault};
@@ -13,6 +12,7 @@ use quell_model::parameter::system::{
 };
 use quell_model::profile::Profile;
 use quell_model::{Contact, Friction, LawKind};
+use quell_numerics::interval::RealInterval;
 
 use super::names::{MOST_COORDINATES, NAME, is_plain_name};
 use super::rows::{RowBasis, SameBasis};

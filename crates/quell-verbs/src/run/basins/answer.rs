@@ -1,8 +1,8 @@
 //! Basins in sentences, JSON and datasets.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::{Basins, Portrait, Share};

@@ -15,7 +15,6 @@ mod starts;
 #[cfg(test)]
 mod tests;
 
-use quell_numerics::interval::RealInterval;
 use std::sync::atomic::Ordering;
 
 use quell_dynamics::attractor::{
@@ -23,6 +22,7 @@ use quell_dynamics::attractor::{
 };
 use quell_dynamics::response::dither_reaches_the_band;
 use quell_dynamics::simulation::within;
+use quell_numerics::interval::RealInterval;
 
 use super::protocol::Protocol;
 use super::slip::SlipReached;

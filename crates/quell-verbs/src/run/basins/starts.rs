@@ -59,9 +59,8 @@ impl StartLayout {
             }
             Self::Sample { count, seed } => {
                 let mut state = seed;
-                let mut between = |RealInterval { lower: from, upper: to }: RealInterval| {
-                    from + (to - from) * uniform(&mut state)
-                };
+                let mut between =
+                    |range: RealInterval| range.lower + range.width() * uniform(&mut state);
                 (0..count).map(|_| [between(across), between(upwards)]).collect()
             }
         }

@@ -4,11 +4,11 @@
 mod answer;
 mod shared;
 
-use quell_numerics::interval::RealInterval;
 use std::sync::atomic::Ordering;
 
 use quell_dynamics::attractor::{EndOfRun, MotionKind, NoEnd, SystemAttractor, end_of_run};
 use quell_dynamics::simulation::within;
+use quell_numerics::interval::RealInterval;
 
 use super::protocol::Protocol;
 use super::system::attractor::{NoLocalVerdict, local_verdict};
@@ -91,7 +91,7 @@ fn checked(study: &SystemStudy, range: &Range) -> Result<(), Failure> {
     if !wrong.is_empty() {
         return Err(wrong.into());
     }
-    ends_are_valid(study, &range.parameter, RealInterval::new(range.from, range.to))
+    ends_are_valid(study, &range.parameter, window)
 }
 
 /// Sweeps a study.

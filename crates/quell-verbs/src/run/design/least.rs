@@ -96,8 +96,7 @@ pub(crate) fn least_system_dithers(
 fn without_state(found: &LeastDitherFound, at: &SystemAtPoint<'_>) -> Vec<String> {
     let Ok(feasible) = &found.answer().answer else { return Vec::new() };
     let critical = &feasible.critical;
-    let middle =
-        || found.over.iter().map(|over| 0.5 * (over.range.lower + over.range.upper)).collect();
+    let middle = || found.over.iter().map(|over| over.range.middle()).collect();
     let point: Vec<f64> = critical.worst.clone().unwrap_or_else(middle);
     let place = OperatingPoint { point: &point, others: &critical.others };
     let Ok(system) = at(place, critical.amplitude) else { return Vec::new() };
@@ -261,14 +260,10 @@ fn within_range(problem: DesignProblem<'_>) -> Designed {
     }
     let mut limits = problem.limits.to_vec();
     limits.push((LimitedQuantity::Amplitude, to));
-    let wider = DesignProblem {
-        amplitude: RealInterval::new(from, WIDER * to),
-        limits: &limits,
-        ..problem
-    };
-    let others: Vec<f64> =
-        problem.others.iter().map(|RealInterval { lower: low, .. }| *low).collect();
-    let point: Vec<f64> = problem.over.iter().map(|RealInterval { lower: low, .. }| *low).collect();
+    let amplitude = RealInterval::new(from, WIDER * to);
+    let wider = DesignProblem { amplitude, limits: &limits, ..problem };
+    let others: Vec<f64> = problem.others.iter().map(|range| range.lower).collect();
+    let point: Vec<f64> = problem.over.iter().map(|range| range.lower).collect();
     let at = OperatingPoint { point: &point, others: &others };
     // More normal dither may pull a contact apart.
     if problem.plant.averaged_loss(at, WIDER * to).is_err() {

@@ -98,10 +98,7 @@ fn tongues(
     let thresholds = |speed: f64| {
         let at = OperatingPoint { point: &[speed], others };
         let quiet = plant.exact(at, range).ok()?;
-        let ends = quiet
-            .intervals()
-            .iter()
-            .flat_map(|RealInterval { lower: low, upper: high }| [*low, *high]);
+        let ends = quiet.intervals().iter().flat_map(|quiet| [quiet.lower, quiet.upper]);
         Some((speed, ends.filter(|end| *end > range.lower && *end < range.upper).collect()))
     };
     tongue_grid(&disc, &(from..=to), DRAWN).into_iter().filter_map(thresholds).collect()

@@ -1,7 +1,6 @@
 //! `resonances`: where waves of the disc meet, which pairs can be unstable at the order of the theory, where motions grow by the exact
 //! equations, and which dither frequencies keep a range of speeds clear.
 
-use quell_numerics::interval::RealInterval;
 use std::ops::RangeInclusive;
 
 use quell_disc::growing::{GrowingSpeeds, growing_speeds};
@@ -16,6 +15,7 @@ use quell_model::Disc;
 use quell_model::disc::Contributions;
 use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::{Map, Value as Json, json};
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
@@ -50,18 +50,18 @@ impl ResonancesRequest {
         frequency: Option<RealInterval>,
     ) -> Result<Self, Complaints> {
         let mut wrong = Vec::new();
-        let mut range =
-            |option, bounds: Bounds, RealInterval { lower: from, upper: to }: RealInterval| {
-                let given = || format!("{from}:{to}");
-                if !(from.is_finite() && to.is_finite() && from <= to) {
-                    let allowed = "FROM:TO, two finite numbers, the first at most the second";
-                    wrong.push(Complaint::option(option, given(), allowed));
-                } else if !(bounds.contains(from) && bounds.contains(to)) {
-                    let allowed = format!("a range with both ends {bounds}");
-                    wrong.push(Complaint::option(option, given(), allowed));
-                }
-                from..=to
-            };
+        let mut range = |option, bounds: Bounds, range: RealInterval| {
+            let RealInterval { lower: from, upper: to } = range;
+            let given = || format!("{from}:{to}");
+            if !(from.is_finite() && to.is_finite() && from <= to) {
+                let allowed = "FROM:TO, two finite numbers, the first at most the second";
+                wrong.push(Complaint::option(option, given(), allowed));
+            } else if !(bounds.contains(from) && bounds.contains(to)) {
+                let allowed = format!("a range with both ends {bounds}");
+                wrong.push(Complaint::option(option, given(), allowed));
+            }
+            from..=to
+        };
         let speeds = range("--speeds", Bounds::FINITE, speeds);
         let wanted = clear.map(|ends| range("--clear", Bounds::FINITE, ends));
         let frequencies =

@@ -9,8 +9,9 @@ mod sampled;
 mod thresholds;
 mod unknown;
 
-use quell_numerics::interval::RealInterval;
 use std::sync::atomic::Ordering;
+
+use quell_numerics::interval::RealInterval;
 
 use crate::parallel::Parallel;
 use quell_design::probability::{SobolIndices, binomial_interval, quantile, sobol_indices};

@@ -1,6 +1,5 @@
 //! The kinds of study whose numbers can be uncertain, and the judges of one sample.
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Display;
 
 use quell_design::least_dither::averaged_quiet;
@@ -10,6 +9,7 @@ use quell_linear::growth::{Growth, Verdict, of_criterion};
 use quell_model::disc::Disc;
 use quell_model::units::Quantity;
 use quell_model::{Dither, Input, OneMass, RefusedNumbers, System};
+use quell_numerics::interval::RealInterval;
 
 use super::unknown::{NoSampledGrowth, NoSampledThreshold, NoSampledVerdict, RefusedStart};
 use super::{ProbabilityStart, verdict};

@@ -1,7 +1,6 @@
 //! What a ramp changes: the velocity of a surface, the load of a contact, or the amplitude of a dither; its run, and the thresholds over
 //! the values that it passes.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
 
 use quell_dynamics::orbit::BranchEnding;
@@ -9,6 +8,7 @@ use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, indexed};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::{NoRampThresholds, Ramp, RampCourse, RampThreshold, RampedMotion};
 use crate::complaint::Failure;

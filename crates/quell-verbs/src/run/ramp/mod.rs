@@ -8,12 +8,12 @@
 
 mod courses;
 
-use quell_numerics::interval::RealInterval;
 use std::fmt::Write as _;
 
 use quell_dynamics::orbit::{NoOrbit, OrbitVerdict};
 use quell_model::profile::Knots;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, find_root};
 use serde_json::Value as Json;

@@ -3,7 +3,6 @@
 mod answer;
 mod band;
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -19,6 +18,7 @@ use quell_model::parameter::system::SYSTEM_DITHER_FREQUENCY;
 use quell_model::profile::Wave;
 use quell_model::system::Input;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::actuator::beyond_actuator;
 use super::effect_words::{EffectWords, percent, residual_in_words};

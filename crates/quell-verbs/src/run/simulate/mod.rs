@@ -5,8 +5,9 @@ pub mod history;
 mod sound;
 mod trajectory;
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
+
+use quell_numerics::interval::RealInterval;
 
 pub use quell_dynamics::motion::MotionStart;
 use quell_dynamics::motion::{

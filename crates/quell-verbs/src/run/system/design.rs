@@ -1,10 +1,10 @@
 //! `design` of a system: the least amplitude of one of its dithers that is quiet over a box of operating points, under limits.
 
-use quell_numerics::interval::RealInterval;
 use std::borrow::Cow;
 
 use quell_design::least_dither::{OperatingPoint, Plant, SampledQuiet, SystemAtPoint, SystemPlant};
 use quell_model::{RefusedNumbers, System, Waveform};
+use quell_numerics::interval::RealInterval;
 
 use super::has_equations;
 use crate::complaint::{Complaint, Failure};

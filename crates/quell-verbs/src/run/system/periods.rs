@@ -1,9 +1,9 @@
 //! How long the motions of a system take: what a run lasts by default, and the windows in which its vibration is sought.
 
-use quell_numerics::interval::RealInterval;
 use std::f64::consts::TAU;
 
 use quell_model::system::Mechanical;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::{has_equations, modes};

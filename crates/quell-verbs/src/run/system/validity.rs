@@ -1,10 +1,10 @@
 //! What keeps an averaged verdict from holding as stated: contacts that the fast motion opens, and slip outside the range of a law.
 
-use quell_numerics::interval::RealInterval;
 use std::cell::RefCell;
 
 use quell_linear::averaging::DitheredContact;
 use quell_model::System;
+use quell_numerics::interval::RealInterval;
 
 use super::force;
 use crate::study::{SystemStudy, UnitSystem};

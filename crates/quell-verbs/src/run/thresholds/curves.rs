@@ -142,7 +142,6 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<Curves, Failu
         let numbers = [(ids[0].clone(), values[0]), (ids[1].clone(), values[1])];
         model.at(&numbers).map_err(RefusedNumbers::by_study)
     };
-    let middle = |RealInterval { lower: from, upper: to }: RealInterval| 0.5 * (from + to);
     let ends = [
         ("--from", request.window.lower, true),
         ("--to", request.window.upper, true),
@@ -151,9 +150,9 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<Curves, Failu
     ];
     for (option, value, is_first) in ends {
         let values = if is_first {
-            [value, middle(request.between)]
+            [value, request.between.middle()]
         } else {
-            [middle(request.window), value]
+            [request.window.middle(), value]
         };
         at(&values).map_err(|why| {
             let path = if is_first { parameter } else { along };

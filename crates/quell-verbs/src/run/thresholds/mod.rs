@@ -8,7 +8,6 @@ pub mod curves;
 mod sentence;
 mod window;
 
-use quell_numerics::interval::RealInterval;
 use std::sync::Mutex;
 
 use quell_dynamics::attractor::{NoStart, RunOutcome, RunSwitches, VariedRun, values_tried};
@@ -19,6 +18,7 @@ use quell_dynamics::orbit::{
 use quell_dynamics::response::dither_reaches_the_band;
 use quell_linear::growth::Verdict;
 use quell_model::{RefusedNumbers, System};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::protocol::Protocol;
@@ -150,7 +150,7 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
         Ok(if dithered { system } else { system.undithered() })
     };
     let RealInterval { lower: from, upper: to } = request.window;
-    ends_are_valid(study, path, RealInterval::new(from, to))?;
+    ends_are_valid(study, path, request.window)?;
     let local = match &request.near {
         Some((numbers, periods)) => {
             let guess = start_with(study, numbers)?.state;

@@ -72,7 +72,7 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
         let wave = Wave { waveform: waveform.clone(), amplitude: 1.0, ..first.clone() };
         let unit = with_wave(system.clone(), 0, |_| wave.clone());
         let range = first_averaged(&unit, 0);
-        let quiet_without = range.as_ref().is_ok_and(|RealInterval { lower: low, .. }| *low == 0.0);
+        let quiet_without = range.as_ref().is_ok_and(|range| range.lower == 0.0);
         let averaged = range.map_err(NoLeastDither::from).and_then(least);
         let without_state = averaged.as_ref().ok().and_then(|least| {
             let average = DitheredSystem::new(&unit).ok()?;

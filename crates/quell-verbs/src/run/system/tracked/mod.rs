@@ -2,7 +2,6 @@
 
 mod answer;
 
-use quell_numerics::interval::RealInterval;
 use std::cell::RefCell;
 
 use quell_linear::averaging::{AveragingError, DitheredSystem};
@@ -14,6 +13,7 @@ use quell_model::RefusedNumbers;
 use quell_model::parameter::NORMAL_LOAD;
 use quell_numerics::continuation::criticality::NoFirstLyapunov;
 use quell_numerics::eigen::EigenError;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, find_root};
@@ -209,7 +209,7 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
     let tracked = tracked.map_err(|why| failed("stability", why))?;
     let mut curves = Vec::new();
     if let Some((along, RealInterval { lower: from, upper: to })) = &along {
-        let width = request.window.upper - request.window.lower;
+        let width = request.window.width();
         for k in 0..LINES {
             let value = from + (to - from) * k as f64 / (LINES - 1) as f64;
             let line =
