@@ -10,7 +10,6 @@ use quell_dynamics::response::{ResponsePlan, Solver, respond};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Averaging, critical_amplitudes};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
-use quell_numerics::interval::RealInterval;
 
 /// The answer as text.
 ///

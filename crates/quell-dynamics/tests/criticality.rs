@@ -15,7 +15,6 @@ use quell_numerics::continuation::criticality::{Criticality, first_lyapunov};
 use quell_numerics::continuation::threshold::BifurcationKind;
 use quell_numerics::continuation::{PeriodMap, modulus};
 use quell_numerics::eigen::Decomposition;
-use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::normal_form::CriticalPair;
 

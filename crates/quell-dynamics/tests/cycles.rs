@@ -7,7 +7,6 @@ use quell_dynamics::orbit::{
 };
 use quell_dynamics::simulation::{EventKind, EventRecorder, Start, simulate};
 use quell_model::LawKind;
-use quell_numerics::interval::RealInterval;
 use quell_zoo::belt::{self, over_amplitudes, undithered_belt};
 use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};

@@ -2,7 +2,6 @@
 
 use quell_dynamics::orbit::{BranchEnding, SystemAt, ThresholdKind, branch_thresholds};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
-use quell_numerics::interval::RealInterval;
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{over_amplitudes, over_velocities};
 use quell_zoo::dither::tangential;

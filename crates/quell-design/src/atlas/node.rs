@@ -5,7 +5,6 @@ use quell_dynamics::orbit::{
 };
 use quell_dynamics::simulation::{Start, Variation, simulate};
 use quell_model::Belt;
-use quell_numerics::interval::RealInterval;
 
 use super::point::AtlasPoint;
 

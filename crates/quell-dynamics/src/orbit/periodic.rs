@@ -8,7 +8,6 @@ use quell_model::System;
 use quell_numerics::continuation::branch::{End, Follow, follow};
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 use quell_numerics::continuation::{modulus, multipliers, spectral_radius};
-use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 
 pub(crate) use super::family::scale_of;

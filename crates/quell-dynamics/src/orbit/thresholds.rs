@@ -13,7 +13,6 @@ use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov, 
 use quell_numerics::continuation::fold::{FoldCoefficient, fold_coefficient};
 use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::BifurcationKind;
-use quell_numerics::interval::RealInterval;
 
 use super::family::{BorderGuard, MotionSignature, NoImage, OrbitFamily, SystemAt, shot_of};
 use super::periodic::{NoOrbit, base_response, scale_of, sliding_state};

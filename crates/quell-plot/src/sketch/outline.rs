@@ -6,8 +6,6 @@ use crate::canvas::Rectangle;
 use crate::geometry::{PlotPoint, PlotRange};
 use crate::palette::LineStyle;
 
-/// A position in pixels of 1/96 inch from the upper left.
-
 /// Half the width of a coil spring.
 const COIL: f64 = 5.0;
 /// Pitch and length of the strokes of a hatching.
