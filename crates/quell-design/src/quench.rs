@@ -13,6 +13,7 @@ use quell_linear::averaging::{AveragingError, DitheredSystem};
 use quell_model::profile::Wave;
 use quell_model::system::{Input, InputTarget};
 use quell_model::{Dither, System};
+use quell_numerics::interval::RealInterval;
 
 use crate::least_dither::{
     AmplitudeBranch, QuietAmplitudes, QuietChange, amplitude_branch, averaged_quiet,
@@ -114,7 +115,7 @@ impl Quench {
     /// the limit, and where no amplitude is quiet.
     pub fn lost(&self) -> Option<f64> {
         let loud = self.branch.changes.iter().find(|change| !change.becomes_quiet);
-        let (_, high) = *self.branch.quiet().intervals().first()?;
+        let high = self.branch.quiet().intervals().first()?.upper;
         loud.map(|change| change.amplitude).or(self.branch.end.filter(|end| *end <= high))
     }
 
@@ -122,8 +123,8 @@ impl Quench {
     /// `None` where the limit itself is not quiet; 0 where every amplitude is.
     pub fn last(&self) -> Option<f64> {
         let intervals = self.branch.quiet();
-        let (low, high) = *intervals.intervals().last()?;
-        (high == self.branch.range.1).then_some(low)
+        let RealInterval { lower: low, upper: high } = *intervals.intervals().last()?;
+        (high == self.branch.range.upper).then_some(low)
     }
 
     /// The least quiet amplitude by finite-R averaging.
@@ -133,8 +134,8 @@ impl Quench {
     pub fn averaged(&self) -> Result<Result<f64, NotQuenched>, &AveragingError> {
         let quiet = self.averaged.as_ref()?;
         Ok(match quiet.intervals().first() {
-            Some((0.0, _)) => Err(NotQuenched::QuietWithout),
-            Some((low, _)) => Ok(*low),
+            Some(RealInterval { lower: 0.0, .. }) => Err(NotQuenched::QuietWithout),
+            Some(RealInterval { lower: low, .. }) => Ok(*low),
             None => Err(NotQuenched::NeverQuiet),
         })
     }
@@ -167,11 +168,11 @@ pub fn quench(system: &System, input: usize) -> Result<Quench, NoQuench> {
     sliding_state(system).map_err(|_| NoQuench::NoSteadySliding)?;
     let limit = amplitude_limit(system, input)?;
     let at = |amplitude: f64| Ok(system.with_amplitude(input, amplitude));
-    let branch = amplitude_branch(&at, (0.0, limit), STEPS);
+    let branch = amplitude_branch(&at, RealInterval::new(0.0, limit), STEPS);
     let branch = branch.map_err(|why| no_branch(&why))?;
     let averaged = match not_fast(system) {
         Some(frequency_ratio) => Err(AveragingError::NotFast { frequency_ratio }),
-        None => averaged_quiet(system, input, (0.0, limit)),
+        None => averaged_quiet(system, input, RealInterval::new(0.0, limit)),
     };
     Ok(Quench { branch, averaged })
 }
@@ -218,17 +219,16 @@ pub fn amplitude_limit(system: &System, input: usize) -> Result<f64, NoQuench> {
 fn static_friction(system: &System, input: usize) -> f64 {
     let InputTarget::Force(row) = &system.inputs[input].target else { return 0.0 };
     let largest = row.iter().fold(0.0, |most: f64, share| most.max(share.abs()));
-    let friction = system
-        .contacts
-        .iter()
-        .map(|contact| contact.friction.static_coefficient() * contact.load().bounds().1.max(0.0));
+    let friction = system.contacts.iter().map(|contact| {
+        contact.friction.static_coefficient() * contact.load().bounds().upper.max(0.0)
+    });
     if largest > 0.0 { friction.fold(0.0, f64::max) / largest } else { 0.0 }
 }
 
 /// The amplitude of a dither that a prescribed load bears, where it and the others lift the load.
 fn limit_of_load(system: &System, (input, contact): (usize, usize)) -> Result<f64, NoQuench> {
     let lift = |waves: &[Wave]| -> f64 {
-        waves.iter().map(|wave| -wave.amplitude * wave.waveform.range().0).sum()
+        waves.iter().map(|wave| -wave.amplitude * wave.waveform.range().lower).sum()
     };
     let own = |other: &Input| matches!(other.target, InputTarget::NormalLoad { contact: of, .. } if of == contact);
     let others =

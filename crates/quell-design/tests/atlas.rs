@@ -6,6 +6,7 @@ use quell_design::atlas::{
 };
 use quell_design::quench::quench;
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::random::SplitMix;
 
 /// Every table is there, in the order of the laws, with errors for every band.
@@ -16,7 +17,7 @@ fn the_shipped_atlas_is_whole() {
         for waveform in WAVEFORMS {
             for surface in AtlasSurface::ALL {
                 assert!(atlas.table(law, &waveform, surface).is_some());
-                for (low, high) in ERROR_BANDS {
+                for RealInterval { lower: low, upper: high } in ERROR_BANDS {
                     let error = atlas.stated_error((law, &waveform), surface, 0.5 * (low + high));
                     let error = error.expect("an error");
                     assert!((1e-9..1e-2).contains(&error), "{law:?} {surface:?} {high} {error}");
@@ -82,7 +83,7 @@ fn surfaces_of_an_independent_program() {
             let close = 1e-8 * expected.abs().max(0.1);
             assert!((exact - expected).abs() < close, "{case} {surface:?} {exact} {expected}");
             let range = RANGE.damping_per_cycle;
-            if per_cycle > range.1 {
+            if per_cycle > range.upper {
                 continue;
             }
             let atlas = Atlas::shipped();
@@ -101,11 +102,11 @@ fn surfaces_of_an_independent_program() {
 fn random_point(
     random: &mut SplitMix,
     (law, waveform): (AtlasLaw, &Waveform),
-    band: (f64, f64),
+    band: RealInterval,
 ) -> AtlasPoint {
-    let mut within = |(low, high): (f64, f64)| (high - low).mul_add(random.share(), low);
-    let (slow, fast) = RANGE.frequency_ratio;
-    let frequency_ratio = within((slow.ln(), fast.ln())).exp();
+    let mut within = |range: RealInterval| range.width().mul_add(random.share(), range.lower);
+    let RealInterval { lower: slow, upper: fast } = RANGE.frequency_ratio;
+    let frequency_ratio = within(RealInterval::new(slow.ln(), fast.ln())).exp();
     AtlasPoint {
         law,
         waveform: waveform.clone(),

@@ -7,6 +7,7 @@ use quell_design::least_dither::{
 };
 use quell_design::tasks::InTurn;
 use quell_model::{Belt, Direction, Dither, Friction, InvalidValues, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 
 fn law(kind: LawKind) -> Friction {
     kind.build(&[0.4, 0.2857, 0.2]).expect("a law")
@@ -39,13 +40,13 @@ fn plant<'a>(at: &'a SystemAtPoint<'a>) -> SystemPlant<'a> {
 
 fn problem<'a>(
     plant: &'a SystemPlant<'a>,
-    over: &'a [(f64, f64)],
+    over: &'a [RealInterval],
     limits: &'a [(LimitedQuantity, f64)],
 ) -> DesignProblem<'a> {
     DesignProblem {
         plant,
         objective: DesignObjective::Amplitude,
-        amplitude: (0.01, 20.0),
+        amplitude: RealInterval::new(0.01, 20.0),
         others: &[],
         over,
         limits,
@@ -73,7 +74,7 @@ fn least_amplitudes_over_speeds() {
             Some("triangle") => Waveform::Triangle,
             _ => Waveform::Square,
         };
-        let over = [(number("from"), number("to"))];
+        let over = [RealInterval::new(number("from"), number("to"))];
         let belt = belt(kind, number("damping_ratio"), waveform);
         let plant = plant(&belt);
         let found = design(problem(&plant, &over, &[])).answer.expect("feasible");
@@ -100,8 +101,8 @@ fn a_stroke_limit_binds_the_frequency() {
     let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
     let plant = plant(&belt);
     let limits = [(LimitedQuantity::Stroke, 0.04)];
-    let others = [(2.0, 20.0)];
-    let over = [(0.05, 0.2)];
+    let others = [RealInterval::new(2.0, 20.0)];
+    let over = [RealInterval::new(0.05, 0.2)];
     let whole = DesignProblem { others: &others, ..problem(&plant, &over, &limits) };
     let found = design(whole).answer.expect("feasible");
     // An independent program; averaged values in closed form: A = v R(1 − 1/R²) at the tip, 2A/(R² − 1) = 0.04.
@@ -130,8 +131,8 @@ fn a_voltage_binds_the_frequency() {
     let actuator = Actuator::Piezo(stack.clone());
     let limit = LimitedQuantity::Actuator(ActuatorLimit::MaximumVoltage);
     let limits = [(limit, 1.0)];
-    let others = [(6.0, 20.0)];
-    let over = [(0.05, 0.2)];
+    let others = [RealInterval::new(6.0, 20.0)];
+    let over = [RealInterval::new(0.05, 0.2)];
     let whole = DesignProblem {
         others: &others,
         actuator: Some(&actuator),
@@ -165,21 +166,22 @@ fn a_voltage_binds_the_frequency() {
 fn a_bounded_amplitude_covers_a_part_of_the_box() {
     let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
     let plant = plant(&belt);
-    let over = [(0.02, 0.2)];
-    let whole = DesignProblem { amplitude: (0.01, 1.0), ..problem(&plant, &over, &[]) };
+    let over = [RealInterval::new(0.02, 0.2)];
+    let whole =
+        DesignProblem { amplitude: RealInterval::new(0.01, 1.0), ..problem(&plant, &over, &[]) };
     let Designed { answer, .. } = design(whole);
     let infeasible = answer.expect_err("the amplitude is bounded");
     assert!(matches!(infeasible.why, NoDesign::NeverQuiet { .. }), "{infeasible:?}");
     let covered = covered(whole, &infeasible).expect("a part");
-    assert_eq!((covered.ends.0, covered.amplitude), (0.02, 1.0));
-    assert!((covered.ends.1 / 0.10081636800765753 - 1.0).abs() < 1e-6, "{covered:?}");
+    assert_eq!((covered.ends.lower, covered.amplitude), (0.02, 1.0));
+    assert!((covered.ends.upper / 0.10081636800765753 - 1.0).abs() < 1e-6, "{covered:?}");
 }
 
 #[test]
 fn a_loss_of_friction_is_judged_on_exact_responses() {
     let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
     let plant = plant(&belt);
-    let over = [(0.145, 0.15)];
+    let over = [RealInterval::new(0.145, 0.15)];
     let limits = [(LimitedQuantity::FrictionLoss, 0.25)];
     let found = design(problem(&plant, &over, &limits)).answer.expect("feasible");
     assert!((found.critical.amplitude / 1.4863197137178406 - 1.0).abs() < 1e-6);
@@ -192,7 +194,7 @@ fn a_loss_of_friction_is_judged_on_exact_responses() {
     let corner = OperatingPoint { point: &[0.145], others: &[] };
     let averaged = Plant::averaged_loss(&plant, corner, found.critical.amplitude).expect("a loss");
     assert!(loss < averaged, "near the graze averaging loses too much: {loss} {averaged}");
-    let over = [(0.05, 0.15)];
+    let over = [RealInterval::new(0.05, 0.15)];
     let limits = [(LimitedQuantity::FrictionLoss, 0.1)];
     let none = design(problem(&plant, &over, &limits)).answer.expect_err("too much is lost");
     assert!(matches!(
@@ -227,7 +229,7 @@ fn nothing_is_needed_where_sliding_is_stable() {
     let belt = belt(LawKind::Stribeck, 0.005, Waveform::Sine);
     let plant = plant(&belt);
     // Without dither sliding is stable from 0.2 √(1 − 0.01/0.857) = 0.1988 on.
-    let over = [(0.2, 0.25)];
+    let over = [RealInterval::new(0.2, 0.25)];
     let found = design(problem(&plant, &over, &[])).answer.expect("feasible");
     assert_eq!((found.critical.amplitude, found.critical.worst), (0.01, None));
 }

@@ -10,6 +10,7 @@ use quell_disc::plate::{ModeSet, Plate as DiscPlate, Reference};
 use quell_model::disc::{DiscDither, Load};
 use quell_model::{Disc, Waveform};
 use quell_numerics::floquet::Effort;
+use quell_numerics::interval::RealInterval;
 
 fn disc(friction: f64, dither: DiscDither, waveform: &Waveform) -> Disc {
     let plate = DiscPlate::new(0.5, 0.3).expect("valid");
@@ -35,9 +36,9 @@ fn at(disc: &Disc, speed: f64, amplitude: f64, ratio: Option<f64>) -> Disc {
 
 fn designed(
     disc: &Disc,
-    speeds: (f64, f64),
-    amplitudes: (f64, f64),
-    ratios: &[(f64, f64)],
+    speeds: RealInterval,
+    amplitudes: RealInterval,
+    ratios: &[RealInterval],
 ) -> Designed {
     let place = |point: OperatingPoint<'_>, amplitude: f64| {
         Ok(at(disc, point.point[0], amplitude, point.others.first().copied()))
@@ -48,9 +49,9 @@ fn designed(
 
 fn problem<'a>(
     plant: &'a DiscPlant<'_>,
-    speeds: &'a [(f64, f64); 1],
-    amplitude: (f64, f64),
-    ratios: &'a [(f64, f64)],
+    speeds: &'a [RealInterval; 1],
+    amplitude: RealInterval,
+    ratios: &'a [RealInterval],
 ) -> DesignProblem<'a> {
     DesignProblem {
         plant,
@@ -66,7 +67,12 @@ fn problem<'a>(
 }
 
 /// The largest growth rate over many speeds.
-fn loudest(disc: &Disc, (from, to): (f64, f64), amplitude: f64, ratio: Option<f64>) -> f64 {
+fn loudest(
+    disc: &Disc,
+    RealInterval { lower: from, upper: to }: RealInterval,
+    amplitude: f64,
+    ratio: Option<f64>,
+) -> f64 {
     let steps = 800;
     (0..=steps)
         .map(|k| from + (to - from) * f64::from(k) / f64::from(steps))
@@ -81,9 +87,9 @@ fn normal_dither_quenches_a_wave_where_it_shares_damping() {
     for waveform in [Waveform::Sine, Waveform::Square] {
         let normal = DiscDither::Normal { amplitude: 1.0, frequency_ratio: 2.7 };
         let disc = disc(0.15, normal, &waveform);
-        let speeds = (0.695, 0.705);
+        let speeds = RealInterval::new(0.695, 0.705);
         assert!(loudest(&disc, speeds, 0.0, None) > 0.0, "it squeals without dither");
-        let found = designed(&disc, speeds, (0.0, 1.0), &[]);
+        let found = designed(&disc, speeds, RealInterval::new(0.0, 1.0), &[]);
         let answer = found.answer.expect("a least dither");
         let least = answer.critical.amplitude;
         assert!(least > 0.0 && least < 1.0, "{least}");
@@ -105,9 +111,10 @@ fn normal_dither_quenches_a_wave_where_it_shares_damping() {
 fn a_clear_frequency_is_chosen_for_tangential_dither() {
     let tangential = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
     let disc = disc(0.25, tangential, &Waveform::Sine);
-    let speeds = (0.25, 0.9);
+    let speeds = RealInterval::new(0.25, 0.9);
     assert!(loudest(&disc, speeds, 1.0, Some(2.7)) > 0.0, "tongues at R = 2.7");
-    let found = designed(&disc, speeds, (1.0, 1.0), &[(2.0, 6.0)]);
+    let found =
+        designed(&disc, speeds, RealInterval::new(1.0, 1.0), &[RealInterval::new(2.0, 6.0)]);
     let answer = found.answer.expect("a clear frequency");
     let ratio = answer.critical.others[0];
     assert!(loudest(&disc, speeds, 1.0, Some(ratio)) < 0.0, "{ratio}");
@@ -124,7 +131,7 @@ fn a_narrow_tongue_is_not_missed() {
     let load = Load::new(2e-3, 1e-4, 2e-3, 1.2e-3);
     let tangential = DiscDither::Tangential { amplitude: 1.0, frequency_ratio: 2.7 };
     let disc = Disc::new(modes, vec![load], tangential, 0.4).expect("valid");
-    let speeds = (0.3, 0.6);
+    let speeds = RealInterval::new(0.3, 0.6);
     let place =
         |point: OperatingPoint<'_>, amplitude: f64| Ok(at(&disc, point.point[0], amplitude, None));
     let plant = DiscPlant { at: &place, speed: Some(0) };
@@ -133,25 +140,36 @@ fn a_narrow_tongue_is_not_missed() {
     for point in &loud {
         assert!(growth(&at(&disc, point[0], 1.0, None)) > 0.0);
         // A grid of 33 points has none in it.
-        let step = (speeds.1 - speeds.0) / 32.0;
-        let nearest = ((point[0] - speeds.0) / step).round().mul_add(step, speeds.0);
+        let step = speeds.width() / 32.0;
+        let nearest = ((point[0] - speeds.lower) / step).round().mul_add(step, speeds.lower);
         assert!(growth(&at(&disc, nearest, 1.0, None)) < 0.0);
     }
-    let found = designed(&disc, speeds, (1.0, 1.0), &[]);
+    let found = designed(&disc, speeds, RealInterval::new(1.0, 1.0), &[]);
     let none = found.answer.expect_err("the tongue is loud");
     assert!(matches!(none.why, NoDesign::NeverQuiet { .. }), "{:?}", none.why);
-    let part = covered(problem(&plant, &[speeds], (1.0, 1.0), &[]), &none).expect("a part");
-    let (from, to) = part.ends;
-    assert!(loudest(&disc, (from, to), 1.0, None) <= 1e-10 && to - from > 0.05);
+    let part = covered(problem(&plant, &[speeds], RealInterval::new(1.0, 1.0), &[]), &none)
+        .expect("a part");
+    let RealInterval { lower: from, upper: to } = part.ends;
+    assert!(loudest(&disc, RealInterval::new(from, to), 1.0, None) <= 1e-10 && to - from > 0.05);
 }
 
 /// Where nothing squeals the smallest amplitude is the answer, and where a whole range squeals no dither is.
 #[test]
 fn limits() {
     let normal = DiscDither::Normal { amplitude: 0.0, frequency_ratio: 2.7 };
-    let quiet = designed(&disc(0.01, normal, &Waveform::Sine), (0.5, 0.6), (0.0, 1.0), &[]);
+    let quiet = designed(
+        &disc(0.01, normal, &Waveform::Sine),
+        RealInterval::new(0.5, 0.6),
+        RealInterval::new(0.0, 1.0),
+        &[],
+    );
     let answer = quiet.answer.expect("no dither at all");
     assert_eq!((answer.critical.amplitude, &answer.critical.worst), (0.0, &None));
-    let loud = designed(&disc(2.0, normal, &Waveform::Sine), (0.3, 0.4), (0.0, 1.0), &[]);
+    let loud = designed(
+        &disc(2.0, normal, &Waveform::Sine),
+        RealInterval::new(0.3, 0.4),
+        RealInterval::new(0.0, 1.0),
+        &[],
+    );
     assert!(loud.answer.is_err());
 }

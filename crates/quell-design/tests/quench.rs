@@ -4,6 +4,7 @@ use quell_design::least_dither::amplitude_branch;
 use quell_design::quench::{NoQuench, NotQuenched, quench};
 use quell_dynamics::orbit::ThresholdKind;
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 
 fn belt(kind: LawKind, damping: f64, velocity: f64, waveform: Waveform, ratio: f64) -> Belt {
     let dither = Dither {
@@ -84,7 +85,7 @@ fn other_ranges_and_the_amplitude_of_the_study_change_nothing() {
     for (to, steps) in [(1.3 * least, 5), (3.0 * least, 60)] {
         let system = belt.system();
         let at = |amplitude: f64| Ok(system.with_amplitude(0, amplitude));
-        let other = amplitude_branch(&at, (0.0, to), steps).expect("a branch");
+        let other = amplitude_branch(&at, RealInterval::new(0.0, to), steps).expect("a branch");
         let first = other.changes[0];
         assert!((first.amplitude / least - 1.0).abs() < 1e-9, "{first:?} {least}");
     }

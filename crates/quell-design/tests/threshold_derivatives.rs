@@ -5,6 +5,7 @@ use quell_dynamics::orbit::{OrbitVerdict, ThresholdKind, branch_thresholds};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::{Belt, Direction, Dither, LawKind, RefusedNumbers, System, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 
 /// A belt with ζ, F, v₀, the three coefficients of the law, and R as its numbers.
@@ -77,7 +78,7 @@ type SystemOf = fn(f64, &[f64]) -> Result<System, RefusedNumbers>;
 /// The amplitude at which the base response becomes stable near another one.
 fn threshold(of: SystemOf, near: f64, numbers: &[f64]) -> (f64, ThresholdKind) {
     let at = |values: &[f64]| of(values[0], numbers);
-    let found = branch_thresholds(&at, (0.97 * near, 1.03 * near), 16, None).expect("a response");
+    let found = branch_thresholds(&at, 0.97 * near, 1.03 * near, 16, None).expect("a response");
     let quiet = found.thresholds.iter().filter(|found| found.becomes == Some(OrbitVerdict::Stable));
     let nearest = quiet.min_by(|a, b| (a.value - near).abs().total_cmp(&(b.value - near).abs()));
     nearest.map(|found| (found.value, found.kind)).expect("a threshold")
@@ -163,7 +164,7 @@ fn of_a_tip_inside_a_box() {
     let at = |amplitude: f64, point: &[f64], numbers: &[f64]| {
         belt(amplitude, &[&numbers[..2], point, &numbers[2..]].concat())
     };
-    let (point, over) = ([0.16234527494519785], [(0.05, 0.2)]);
+    let (point, over) = ([0.16234527494519785], [RealInterval::new(0.05, 0.2)]);
     let least = LeastAmplitude {
         at: &at,
         amplitude: 1.6085159880796942,

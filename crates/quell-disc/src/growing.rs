@@ -12,6 +12,7 @@ use core::ops::RangeInclusive;
 use quell_linear::floquet::NotFollowerDither;
 use quell_model::Disc;
 use quell_numerics::eigen::EigenError;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 use quell_numerics::roots::{Closeness, minimise};
 
@@ -63,15 +64,15 @@ pub fn growing_speeds(
     if ends.len() == 1 {
         ends.push(last);
     }
-    let mut parts: Vec<(f64, f64)> = Vec::new();
+    let mut parts: Vec<RealInterval> = Vec::new();
     for pair in ends.windows(2) {
         let (from, to) = (pair[0], pair[1]);
         if !grows(&line(f64::midpoint(from, to))?) {
             continue;
         }
         match parts.last_mut() {
-            Some((_, end)) if *end == from => *end = to,
-            _ => parts.push((from, to)),
+            Some(RealInterval { upper: end, .. }) if *end == from => *end = to,
+            _ => parts.push(RealInterval::new(from, to)),
         }
     }
     parts.into_iter().map(|part| peak(&line, part, &grid)).collect()
@@ -85,7 +86,7 @@ fn grows(exponents: &[DiscExponent]) -> bool {
 /// An interval with its largest growth.
 fn peak(
     line: &dyn Fn(f64) -> Result<Vec<DiscExponent>, NotFollowerDither>,
-    (from, to): (f64, f64),
+    RealInterval { lower: from, upper: to }: RealInterval,
     grid: &[f64],
 ) -> Result<GrowingSpeeds, NotFollowerDither> {
     let rate = |speed: f64| -> Result<f64, NotFollowerDither> {

@@ -11,6 +11,7 @@ use quell_dynamics::orbit::{
     ThresholdPlane, base_response, branch_thresholds, near, threshold_curves,
 };
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 
 fn belt(waveform: Waveform, amplitude: f64) -> Belt {
     let friction = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("a valid law");
@@ -27,7 +28,7 @@ fn belt(waveform: Waveform, amplitude: f64) -> Belt {
 
 fn both_thresholds(belt: &Belt) -> usize {
     let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0])?.system());
-    branch_thresholds(&at, (0.5, 10.5), 40, None).expect("followed").thresholds.len()
+    branch_thresholds(&at, 0.5, 10.5, 40, None).expect("followed").thresholds.len()
 }
 
 /// Both thresholds of the amplitude over the belt's velocity, and the number of points.
@@ -36,7 +37,12 @@ fn both_curves(belt: &Belt) -> usize {
         let belt = belt.with_belt_velocity(values[1])?;
         Ok(belt.with_amplitude(0, values[0])?.system())
     };
-    let plane = ThresholdPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5), points: 100 };
+    let plane = ThresholdPlane {
+        at: &at,
+        window: RealInterval::new(0.1, 16.0),
+        between: RealInterval::new(0.85, 1.5),
+        points: 100,
+    };
     let found = threshold_curves(&plane, 3).expect("curves").curves;
     found.iter().map(|curve| curve.points.len()).sum()
 }

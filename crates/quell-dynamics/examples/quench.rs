@@ -34,7 +34,7 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
         writeln!(text, "averaging: {:?} from D = {:.4}", change.becomes, change.amplitude)?;
     }
     let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0])?.system());
-    let found = branch_thresholds(&at, (0.4, 0.6), 64, None)?;
+    let found = branch_thresholds(&at, 0.4, 0.6, 64, None)?;
     for threshold in found.thresholds {
         writeln!(text, "exactly: {} at D = {:.7}", threshold.kind.name(), threshold.value)?;
     }

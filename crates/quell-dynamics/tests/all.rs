@@ -39,10 +39,11 @@ use quell_dynamics::orbit::{BranchEnding, SystemAt, Threshold, branch_thresholds
 use quell_dynamics::response::{ResponsePlan, Solver, SteadyResponse, respond};
 use quell_dynamics::simulation::Start;
 use quell_model::Belt;
+use quell_numerics::interval::RealInterval;
 
 /// Every threshold of the base response, whose branch must not be lost.
-fn local_thresholds(at: &SystemAt<'_>, window: (f64, f64), steps: u32) -> Vec<Threshold> {
-    let found = branch_thresholds(at, window, steps, None).expect("a response");
+fn local_thresholds(at: &SystemAt<'_>, window: RealInterval, steps: u32) -> Vec<Threshold> {
+    let found = branch_thresholds(at, window.lower, window.upper, steps, None).expect("a response");
     let is_lost =
         matches!(found.ending, BranchEnding::Lost { .. } | BranchEnding::LostTurning { .. });
     assert!(!is_lost, "{:?}", found.ending);

@@ -11,6 +11,7 @@ use quell_linear::averaging::{
     effective, effective_by_quadrature, everywhere_stable_amplitude,
 };
 use quell_model::{Direction, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::special::{dawson, erf, exp, ln};
 use quell_zoo::belt::{belt, decreasing_under, over_amplitudes};
@@ -369,7 +370,7 @@ fn limit_of_high_frequency_under_normal_dither() {
         // Richardson extrapolation in 1/R² of two orbits, the second at twice the R of the first; the rest is of order 1/R⁴.
         let orbit = |ratio: f64| {
             let belt = belt(damping, v, &law, vec![normal(waveform.clone(), 0.1 * ratio, ratio)]);
-            let range = (0.85 * limit * ratio, limit * ratio);
+            let range = RealInterval::new(0.85 * limit * ratio, limit * ratio);
             let found = local_thresholds(&over_amplitudes(&belt), range, 10);
             let hopf =
                 found.iter().find(|threshold| threshold.kind == ThresholdKind::NeimarkSacker);

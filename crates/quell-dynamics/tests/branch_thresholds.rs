@@ -9,6 +9,7 @@ use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::{LawKind, System, Waveform};
 use quell_numerics::continuation::multipliers;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::polar::modulus;
 
@@ -48,9 +49,10 @@ fn two_masses(amplitude: f64, speeds: [f64; 2]) -> System {
     }
 }
 
-fn thresholds(speeds: [f64; 2], window: (f64, f64)) -> Vec<Threshold> {
+fn thresholds(speeds: [f64; 2], window: RealInterval) -> Vec<Threshold> {
     let at = |values: &[f64]| Ok(two_masses(values[0], speeds));
-    let found = branch_thresholds(&at, window, 40, None).expect("a base response");
+    let found =
+        branch_thresholds(&at, window.lower, window.upper, 40, None).expect("a base response");
     assert_eq!(found.ending, BranchEnding::Covered, "{window:?}");
     found.thresholds
 }
@@ -59,7 +61,9 @@ fn thresholds(speeds: [f64; 2], window: (f64, f64)) -> Vec<Threshold> {
 #[test]
 fn the_grazing_of_a_further_contact_is_one_of_that_contact() {
     let speeds = [0.1, 0.3];
-    for window in [(0.1, 4.0), (1.2, 1.7), (2.0, 1.0)] {
+    for window in
+        [RealInterval::new(0.1, 4.0), RealInterval::new(1.2, 1.7), RealInterval::new(2.0, 1.0)]
+    {
         let found = thresholds(speeds, window);
         let [found] = found.as_slice() else { panic!("{window:?}: {found:?}") };
         assert_eq!((found.kind, &found.contacts), (ThresholdKind::Grazing, &vec![1]));
@@ -81,7 +85,9 @@ fn the_grazing_of_a_further_contact_is_one_of_that_contact() {
 /// of the period map.
 #[test]
 fn equal_contacts_graze_together() {
-    for window in [(0.1, 4.0), (1.0, 2.0), (1.3, 1.6)] {
+    for window in
+        [RealInterval::new(0.1, 4.0), RealInterval::new(1.0, 2.0), RealInterval::new(1.3, 1.6)]
+    {
         let found = thresholds([0.3; 2], window);
         let [found] = found.as_slice() else { panic!("{window:?}: {found:?}") };
         assert_eq!((found.kind, &found.contacts), (ThresholdKind::Grazing, &vec![0, 1]));
@@ -114,8 +120,12 @@ fn grazings_of_named_contacts_are_followed() {
     for (equal, contacts) in [(false, vec![1]), (true, vec![0, 1])] {
         let speeds = |along: f64| [if equal { along } else { 0.1 }, along];
         let at = |values: &[f64]| Ok(two_masses(values[0], speeds(values[1])));
-        let plane =
-            ThresholdPlane { at: &at, window: (0.8, 2.0), between: (0.28, 0.32), points: 10 };
+        let plane = ThresholdPlane {
+            at: &at,
+            window: RealInterval::new(0.8, 2.0),
+            between: RealInterval::new(0.28, 0.32),
+            points: 10,
+        };
         let found = threshold_curves(&plane, 1).expect("curves");
         assert!(found.open.is_empty(), "{:?}", found.open);
         let [curve] = found.curves.as_slice() else { panic!("{:?}", found.curves) };
@@ -123,7 +133,10 @@ fn grazings_of_named_contacts_are_followed() {
         let (first, last) = (&curve.points[0], &curve.points[curve.points.len() - 1]);
         assert!(((first.along - last.along).abs() - 0.04).abs() < 1e-9, "{curve:?}");
         for point in [first, last] {
-            let line = thresholds(speeds(point.along), (0.9 * point.value, 1.1 * point.value));
+            let line = thresholds(
+                speeds(point.along),
+                RealInterval::new(0.9 * point.value, 1.1 * point.value),
+            );
             let off = line.iter().map(|found| (found.value - point.value).abs());
             assert!(off.fold(f64::INFINITY, f64::min) < 1e-7, "{point:?} {line:?}");
         }

@@ -194,7 +194,7 @@ fn two_masses(friction: Friction, speed: f64, damping: f64, amplitude: f64) -> S
 /// The Neimark–Sacker threshold of the damping.
 fn torus(friction: &Friction, speed: f64) -> Threshold {
     let at = |values: &[f64]| Ok(two_masses(friction.clone(), speed, values[0], 0.1));
-    let found = branch_thresholds(&at, (1.2, 0.1), 40, None).expect("a base response");
+    let found = branch_thresholds(&at, 1.2, 0.1, 40, None).expect("a base response");
     let mut thresholds = found.thresholds.into_iter();
     thresholds.find(|found| found.kind == ThresholdKind::NeimarkSacker).expect("a threshold")
 }

@@ -2,6 +2,7 @@
 
 use quell_dynamics::orbit::{ThresholdCurveEnd, ThresholdKind, ThresholdPlane, threshold_curves};
 use quell_model::Waveform;
+use quell_numerics::interval::RealInterval;
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{decreasing_under, over_amplitude_and_velocity, over_amplitudes};
 
@@ -12,7 +13,12 @@ use crate::local_thresholds;
 fn amplitude_over_belt_velocity() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
     let at = over_amplitude_and_velocity(&belt);
-    let plane = ThresholdPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5), points: 60 };
+    let plane = ThresholdPlane {
+        at: &at,
+        window: RealInterval::new(0.1, 16.0),
+        between: RealInterval::new(0.85, 1.5),
+        points: 60,
+    };
     let found = threshold_curves(&plane, 3).expect("curves").curves;
     for curve in &found {
         println!("{:?} {:?} {} points", curve.kind, curve.ends, curve.points.len());
@@ -36,7 +42,7 @@ fn amplitude_over_belt_velocity() {
         for point in curve.points.iter().step_by(9) {
             let belt = belt.at_speed(point.along);
             let (from, to) = (0.8 * point.value, (1.1 * point.value).min(16.0));
-            let line = local_thresholds(&over_amplitudes(&belt), (from, to), 20);
+            let line = local_thresholds(&over_amplitudes(&belt), RealInterval::new(from, to), 20);
             let of_kind = line.iter().filter(|threshold| threshold.kind == kind);
             let off = of_kind.map(|threshold| (threshold.value - point.value).abs());
             let off = off.fold(f64::INFINITY, f64::min);

@@ -115,8 +115,7 @@ fn cycles_end_at_their_belt_velocity() {
 #[test]
 fn a_fold_is_not_stepped_over() {
     let belt = belt::decreasing().with_dither(sine(1e-4, 1.0));
-    let found =
-        branch_thresholds(&over_amplitudes(&belt), (1e-4, 3e-3), 20, None).expect("followed");
+    let found = branch_thresholds(&over_amplitudes(&belt), 1e-4, 3e-3, 20, None).expect("followed");
     let fold = found.thresholds.iter().find(|threshold| threshold.kind == ThresholdKind::Fold);
     println!("{:?}\n{:?}", found.thresholds, found.ending);
     let fold = fold.expect("a fold");

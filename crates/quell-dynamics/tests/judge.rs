@@ -12,6 +12,7 @@ use quell_dynamics::orbit::{
 use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined};
 use quell_dynamics::simulation::Start;
 use quell_model::{LawKind, System, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_zoo::belt::{self, over_velocities, stribeck_under, undithered_belt};
 use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};
@@ -121,7 +122,7 @@ fn strong_friction_keeps_vibrating() {
 #[test]
 fn squeal_ends_at_the_hopf_point() {
     let belt = belt::dissertation(LawKind::Stribeck).at_speed(0.15);
-    let hopf = local_thresholds(&over_velocities(&belt), (0.15, 0.25), 20);
+    let hopf = local_thresholds(&over_velocities(&belt), RealInterval::new(0.15, 0.25), 20);
     assert_eq!((hopf.len(), hopf[0].kind), (1, ThresholdKind::Hopf));
     let hopf = hopf[0].value;
     assert!((hopf - 0.198_830_1).abs() < 1e-7, "{hopf}");
@@ -140,7 +141,7 @@ fn squeal_ends_at_the_hopf_point() {
     let start = |_: f64, system: &System| {
         squealing_state(system).or_else(|_| sliding_state(system).map_err(NoStart::NoSliding))
     };
-    let changes = switches(&at, &start, (0.15, 0.25), 10).changes;
+    let changes = switches(&at, &start, RealInterval::new(0.15, 0.25), 10).changes;
     assert_eq!((changes.len(), changes[0].becomes.is_quiet()), (1, Some(true)));
     assert!((changes[0].value / hopf - 1.0).abs() < 2e-6, "{changes:?}");
 }

@@ -6,6 +6,7 @@ use core::f64::consts::TAU;
 use quell_dynamics::response::{PEAK_FLOOR, Solver};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_model::{Belt, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{self, chapter_4, over_amplitudes, stribeck_under};
 use quell_zoo::dither::{normal, sine};
@@ -113,7 +114,8 @@ fn a_cycle_coexists_with_stable_sliding() {
 fn figure_4_11_shows_the_sine() {
     let found = |waveform: Waveform| -> Vec<f64> {
         let belt = chapter_4().with_dither(normal(waveform, 0.1, 5.0));
-        let thresholds = local_thresholds(&over_amplitudes(&belt), (0.1, 0.99), 60);
+        let thresholds =
+            local_thresholds(&over_amplitudes(&belt), RealInterval::new(0.1, 0.99), 60);
         thresholds.iter().map(|threshold| threshold.value).collect()
     };
     for (waveform, known) in [

@@ -6,6 +6,7 @@ use quell_dynamics::attractor::{
 use quell_dynamics::orbit::{Orbit, OrbitVerdict, Threshold, ThresholdKind, base_response};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
 use quell_model::{Belt, Dither, LawKind, RefusedNumbers, System, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{chapter_4, decreasing_under, dissertation, over_amplitudes};
 use quell_zoo::dither::{normal, tangential};
@@ -84,8 +85,11 @@ fn thresholds_of_tangential_dither() {
         (Waveform::Sine, 4.322_392_624, 9.900_214_849),
         (Waveform::Square, 3.295_664_190, 6.313_857_946),
     ] {
-        let found =
-            local_thresholds(&over_amplitudes(&decreasing_under(waveform, 1.0)), (0.5, 10.5), 40);
+        let found = local_thresholds(
+            &over_amplitudes(&decreasing_under(waveform, 1.0)),
+            RealInterval::new(0.5, 10.5),
+            40,
+        );
         let expected = [
             (lower, ThresholdKind::NeimarkSacker, OrbitVerdict::Unstable),
             (upper, ThresholdKind::Grazing, OrbitVerdict::Stable),
@@ -101,7 +105,7 @@ fn thresholds_of_normal_dither() {
         (Waveform::Sine, 0.710_299_1, 0.965_369_470, 2e-7),
     ] {
         let belt = chapter_4().with_dither(normal(waveform.clone(), 0.1, 5.0));
-        let found = local_thresholds(&over_amplitudes(&belt), (0.1, 0.99), 60);
+        let found = local_thresholds(&over_amplitudes(&belt), RealInterval::new(0.1, 0.99), 60);
         assert_eq!(found.len(), 2, "{found:?}");
         for (threshold, value) in found.iter().zip([lower, upper]) {
             let off = (threshold.value / value - 1.0).abs();
@@ -126,7 +130,7 @@ fn quench_thresholds_of_the_reference() {
         let dither = tangential(waveform, average, number("frequency_ratio"));
         let belt = dissertation(law).at_speed(number("belt_velocity")).with_dither(dither);
         let (from, to) = (0.8 * average, 1.1 * average);
-        let found = local_thresholds(&over_amplitudes(&belt), (from, to), 12);
+        let found = local_thresholds(&over_amplitudes(&belt), RealInterval::new(from, to), 12);
         let last = found.last().unwrap_or_else(|| panic!("no threshold: {case}"));
         assert_eq!(last.kind, ThresholdKind::Grazing);
         let off = (last.value / expected - 1.0).abs();
@@ -146,7 +150,7 @@ fn thresholds_from_rest() {
         let belt = decreasing_under(Waveform::Sine, 1.0);
         let shifted = |dither: &Dither| Dither { phase: phase * quarter, ..dither.clone() };
         let belt = belt.with_dithers(belt.dithers().iter().map(shifted).collect());
-        let range = (expected - 0.11, expected + 0.09);
+        let range = RealInterval::new(expected - 0.11, expected + 0.09);
         let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0]).expect("valid").system());
         let found = switches(&at, &|_, _| Ok(vec![0.0, 0.0]), range, 2);
         assert_eq!(found.first.is_quiet(), Some(true), "{found:?}");
@@ -176,7 +180,7 @@ fn a_start_that_cannot_be_computed_is_not_quenched() {
     let no_start = || NoStart::OfStudy("no start".to_owned());
     let belt = decreasing_under(Waveform::Sine, 1.0);
     let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0]).expect("valid").system());
-    let found = switches(&at, &|_, _| Err(no_start()), (2.0, 3.0), 1);
+    let found = switches(&at, &|_, _| Err(no_start()), RealInterval::new(2.0, 3.0), 1);
     assert_eq!((found.first.is_quiet(), found.changes.len()), (None, 0));
     assert_eq!(found.unknown, [2.0, 3.0].map(|value| (value, NoOutcome::NoStart(no_start()))));
 }
@@ -185,7 +189,7 @@ fn a_start_that_cannot_be_computed_is_not_quenched() {
 pub(crate) fn switches(
     at: &(dyn Fn(&[f64]) -> Result<System, RefusedNumbers> + Sync),
     start: &StartOfRun<'_>,
-    window: (f64, f64),
+    window: RealInterval,
     steps: u32,
 ) -> RunSwitches {
     let run = VariedRun { start, ramp: 0.0, at, most_steps: u64::MAX };

@@ -11,6 +11,7 @@ use quell_dynamics::orbit::{
 use quell_dynamics::simulation::{Start, simulate, within};
 use quell_linear::averaging::{Averaging, AveragingError, NoBand, closed_band, criterion};
 use quell_model::{Belt, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 use quell_zoo::belt::{
     self, decreasing_under, over_amplitude_and_velocity, over_amplitudes, stribeck_under,
@@ -146,16 +147,16 @@ fn squealing_starts_that_do_not_exist() {
 fn thresholds() {
     let belt = folding(1e-4);
     let over = over_amplitudes(&belt);
-    let from = |from: f64| branch_thresholds(&over, (from, 3e-3), 20, None).expect_err("nothing");
+    let from = |from: f64| branch_thresholds(&over, from, 3e-3, 20, None).expect_err("nothing");
     let why = from(-1.5);
     assert!(matches!(why, NoOrbit::NoImage(NoImage::Invalid(_))), "{why:?}");
     assert_states(&why, &["-1.5"]);
     let why = from(2e-3);
     assert!(matches!(why, NoOrbit::Ends { .. }), "{why:?}");
     assert_states(&why, &["78.6", "ends at"]);
-    let why = branch_thresholds(&over, (-3.0, 1.0), 5, Some((&[0.0, 0.0], 1)));
+    let why = branch_thresholds(&over, -3.0, 1.0, 5, Some((&[0.0, 0.0], 1)));
     assert_states(&why.expect_err("a negative amplitude"), &["-3"]);
-    let found = branch_thresholds(&over_amplitudes(&lost()), (2.5, 2.9933), 8, None);
+    let found = branch_thresholds(&over_amplitudes(&lost()), 2.5, 2.9933, 8, None);
     let ending = found.expect("a first response").ending;
     let BranchEnding::Lost { at } = ending else { panic!("{ending:?}") };
     assert!((at - 2.99321).abs() < 1e-4, "{at}");
@@ -168,9 +169,13 @@ fn curves_of_thresholds() {
         let plane = ThresholdPlane { at: &at, window, between, points: 5 };
         threshold_curves(&plane, 2).expect("one line is followed").open[0].clone()
     };
-    let why = line(&decreasing_under(Waveform::Sine, 1.0), (0.1, 3.0), (-1.0, 1.0));
+    let why = line(
+        &decreasing_under(Waveform::Sine, 1.0),
+        RealInterval::new(0.1, 3.0),
+        RealInterval::new(-1.0, 1.0),
+    );
     assert_states(&why, &["at -0.5", "belt_velocity"]);
-    let why = line(&folding(1e-4), (2e-3, 3e-3), (0.9, 1.1));
+    let why = line(&folding(1e-4), RealInterval::new(2e-3, 3e-3), RealInterval::new(0.9, 1.1));
     let Open::Begin(NoOrbit::Ends { .. }) = why.why else { panic!("{why}") };
     assert_states(&why, &["at 0.95", "ends at 52.9"]);
     // No plane is known in which these are met at once.

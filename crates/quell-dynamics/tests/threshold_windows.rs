@@ -8,7 +8,7 @@ use quell_zoo::dither::tangential;
 
 /// Thresholds over a window that must be covered.
 fn thresholds(at: &SystemAt<'_>, (from, to): (f64, f64)) -> Vec<(f64, ThresholdKind)> {
-    let found = branch_thresholds(at, (from, to), 40, None)
+    let found = branch_thresholds(at, from, to, 40, None)
         .unwrap_or_else(|why| panic!("{why} {:?}", at(&[from])));
     assert_eq!(found.ending, BranchEnding::Covered, "from {from} to {to}: {:?}", at(&[from]));
     found.thresholds.iter().map(|threshold| (threshold.value, threshold.kind)).collect()

@@ -13,6 +13,7 @@
 use std::path::{Path, PathBuf};
 
 use quell_model::RecordedQuantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 
 use crate::columns::{ColumnChoice, FoundColumn, WantedColumn};
@@ -64,7 +65,7 @@ pub struct RecordRequest {
     /// Factor of the readings: the calibration.
     pub gain: f64,
     /// The part of the record between two of its times.
-    pub window: Option<(f64, f64)>,
+    pub window: Option<RealInterval>,
     /// Columns by other names.
     pub columns: ColumnChoice,
 }
@@ -115,7 +116,8 @@ impl RecordRequest {
         if let Some(text) = window {
             let ends = text.split_once(':').and_then(|(from, to)| {
                 let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
-                Some((number(from)?, number(to)?)).filter(|(from, to)| from < to)
+                Some(RealInterval::new(number(from)?, number(to)?))
+                    .filter(|RealInterval { lower: from, upper: to }| from < to)
             });
             request.window = ends;
             if ends.is_none() {
@@ -348,7 +350,10 @@ fn read_record(
         match (own, reading) {
             (Ok(Some(own)), Ok(Some(reading))) => {
                 let own = time.factor * own;
-                let inside = request.window.is_none_or(|(from, to)| (from..=to).contains(&own));
+                let inside =
+                    request.window.is_none_or(|RealInterval { lower: from, upper: to }| {
+                        (from..=to).contains(&own)
+                    });
                 if inside {
                     record.times.push(own);
                     record.values.push(factor * reading);

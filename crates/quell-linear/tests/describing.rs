@@ -7,6 +7,7 @@ use quell_linear::averaging::{
 };
 use quell_model::waveform::Burst;
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{belt, undithered_belt};
@@ -114,7 +115,7 @@ fn gain_from_the_slopes() {
     for belt in dithered().into_iter().take(8) {
         let [dither] = belt.dithers() else { panic!("one dither") };
         let wave = FastWave::Integral(dither.waveform.clone());
-        let (low, high) = dither.waveform.integral_range();
+        let RealInterval { lower: low, upper: high } = dither.waveform.integral_range();
         let alpha = dither.amplitude_ratio();
         let motion = FastMotion::of(&belt, 0.1, Averaging::Limit).expect("a motion");
         let single = FastMotion::single(wave, alpha);

@@ -150,8 +150,7 @@ impl Belt {
             let allowed = "later than the time before it: the velocity of the belt cannot jump, no force could make a sticking mass follow";
             return Err(Invalid::new(format!("belt.drive.time[{place}]"), time, allowed).into());
         }
-        let (least, most) = drive.bounds();
-        let belt_velocity = least.abs().max(most.abs());
+        let belt_velocity = drive.bounds().magnitude();
         let belt = Self { belt_velocity, drive: Some(drive), ..self };
         let friction = belt.friction.placed(&belt.surroundings())?;
         Ok(Self { friction, ..belt })
@@ -162,7 +161,7 @@ impl Belt {
     /// # Errors
     /// A load that reaches zero together with normal dither.
     pub fn loaded(self, load: Profile) -> Result<Self, InvalidValues> {
-        let (least, _) = load.bounds();
+        let least = load.bounds().lower;
         if least <= 0.0 {
             let allowed = "such that the load stays greater than 0: a belt without normal load has no contact";
             return Err(Invalid::new("belt.load", least, allowed).into());
@@ -325,9 +324,10 @@ impl Belt {
     pub fn total_amplitude(&self, direction: Direction) -> f64 {
         let most = |dither: &Dither| match direction {
             Direction::Tangential => dither.waveform.peak(),
-            Direction::Normal => -dither.waveform.range().0,
+            Direction::Normal => -dither.waveform.range().lower,
         };
-        let share = |dither: &Dither| dither.envelope.as_ref().map_or(1.0, |knots| knots.range().1);
+        let share =
+            |dither: &Dither| dither.envelope.as_ref().map_or(1.0, |knots| knots.range().upper);
         self.dithers_along(direction)
             .map(|dither| most(dither) * share(dither) * dither.amplitude)
             .sum()

@@ -1,6 +1,6 @@
-//! Interval arithmetic with outward rounding, for proofs about formulas.
+//! Intervals of real numbers: windows, ranges and bounds, and their arithmetic with outward rounding, for proofs about formulas.
 //!
-//! Every operation returns an interval that contains the exact result for all real numbers in its arguments. The four
+//! Every operation of the arithmetic returns an interval that contains the exact result for all real numbers in its arguments. The four
 //! operations and the square root are correctly rounded, so their bounds are moved outward by one unit in the last place;
 //! the functions of libm have errors below one unit, so their bounds are moved by two. An infinite bound means "unbounded":
 //! the numbers inside are still finite. An operation that is not defined on the whole argument returns `None`.
@@ -9,11 +9,11 @@ use std::f64::consts::TAU;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// All real numbers from `lower` to `upper`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RealInterval {
     /// Lower bound.
     pub lower: f64,
-    /// Upper bound, at least the lower one.
+    /// Upper bound, at least the lower one; of a window that a user gives, once it is checked.
     pub upper: f64,
 }
 
@@ -29,6 +29,31 @@ impl RealInterval {
     /// The interval of a single number.
     pub const fn point(value: f64) -> Self {
         Self { lower: value, upper: value }
+    }
+
+    /// Distance of the bounds, rounded to nearest.
+    pub fn width(self) -> f64 {
+        self.upper - self.lower
+    }
+
+    /// The largest absolute value.
+    pub fn magnitude(self) -> f64 {
+        self.lower.abs().max(self.upper.abs())
+    }
+
+    /// The number at a fraction of the interval; exact at both ends.
+    pub fn at(self, share: f64) -> f64 {
+        if share == 1.0 { self.upper } else { self.width().mul_add(share, self.lower) }
+    }
+
+    /// The fraction of the interval at which a number is.
+    pub fn share_of(self, value: f64) -> f64 {
+        (value - self.lower) / self.width()
+    }
+
+    /// The number halfway between finite bounds, rounded to nearest.
+    pub fn middle(self) -> f64 {
+        0.5 * (self.lower + self.upper)
     }
 
     /// Whether both bounds are finite.
@@ -58,8 +83,15 @@ impl RealInterval {
     }
 
     /// The smallest interval that contains both.
-    fn hull(self, other: Self) -> Self {
+    #[must_use]
+    pub fn hull(self, other: Self) -> Self {
         Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
+    }
+
+    /// The numbers in both; `None` if no number is.
+    pub fn intersection(self, other: Self) -> Option<Self> {
+        let (lower, upper) = (self.lower.max(other.lower), self.upper.min(other.upper));
+        (lower <= upper).then_some(Self { lower, upper })
     }
 
     /// Quotient; `None` if the divisor may be zero.

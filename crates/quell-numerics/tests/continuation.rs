@@ -7,6 +7,7 @@ use quell_numerics::continuation::curve::{BifurcationCurve, CurveEnd, Trace, tra
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 use quell_numerics::continuation::threshold::BifurcationKind;
 use quell_numerics::continuation::{Image, PeriodMap};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 
 /// Hénon's map (x, y) → (1 − a x² + y, b x), parameters a and then b.
@@ -318,7 +319,7 @@ fn all(curve: &BifurcationCurve, wanted: impl Fn(f64) -> f64) {
 
 #[test]
 fn curves_in_two_parameters() {
-    let options = Trace::windows((-1.0, 2.0), (-0.5, 0.6), 40);
+    let options = Trace::windows(RealInterval::new(-1.0, 2.0), RealInterval::new(-0.5, 0.6), 40);
     let b = 0.3_f64;
     for (kind, factor, sign) in
         [(BifurcationKind::Fold, -0.25, 0.0), (BifurcationKind::Flip, 0.75, 1.0)]
@@ -335,14 +336,14 @@ fn curves_in_two_parameters() {
         assert_eq!(reached, [-0.5, 0.6]);
     }
     // The weight of the delay scales the state alone.
-    let options = Trace::windows((1.0, 3.0), (0.5, 2.0), 40);
+    let options = Trace::windows(RealInterval::new(1.0, 3.0), RealInterval::new(0.5, 2.0), 40);
     let curve =
         trace(&Delayed, BifurcationKind::NeimarkSacker, &(), &[0.5, 0.5], [2.0, 1.0], options)
             .expect("a curve");
     all(&curve, |_| 2.0);
     // p = (1 − inside) q.
     let corner = Corner { inside: 0.5, outside: -0.3, continued: true };
-    let options = Trace::windows((-1.0, 1.0), (-1.0, 1.5), 40);
+    let options = Trace::windows(RealInterval::new(-1.0, 1.0), RealInterval::new(-1.0, 1.5), 40);
     let curve = trace(&corner, BifurcationKind::Grazing, &true, &[0.2], [0.1, 0.2], options)
         .expect("a curve");
     all(&curve, |q| 0.5 * q);
@@ -376,7 +377,7 @@ impl PeriodMap for Ring {
 
 #[test]
 fn a_closed_curve_is_recognised() {
-    let options = Trace::windows((-2.0, 2.0), (-2.0, 2.0), 60);
+    let options = Trace::windows(RealInterval::new(-2.0, 2.0), RealInterval::new(-2.0, 2.0), 60);
     let curve =
         trace(&Ring, BifurcationKind::Fold, &(), &[0.6], [0.8, 0.6], options).expect("a curve");
     assert_eq!(curve.ends, [CurveEnd::Closed; 2]);

@@ -139,7 +139,7 @@ fn outer(
     let shared_height = if shared.is_empty() {
         0.0
     } else {
-        legend::rows_height(&shared, body.upper - body.lower, sizes) + 6.0
+        legend::rows_height(&shared, body.width(), sizes) + 6.0
     };
     let mut head = EDGE + line(sizes.figure_title) * title.len() as f64;
     if figure.legend == SharedLegend::Above {

@@ -95,7 +95,7 @@ fn has_curves(panel: &Panel) -> bool {
     panel.layers.iter().any(|layer| matches!(layer, Layer::Polyline(_) | Layer::Region(_)))
 }
 
-/// Option<PlotRange> of the layers in x, or in y of the points within the given limits of x.
+/// Extent of the layers in x, or in y of the points within the given limits of x.
 fn extent(panel: &Panel, within: Option<PlotRange>) -> Option<PlotRange> {
     let axis = if within.is_some() { &panel.y } else { &panel.x };
     let mut whole: Option<PlotRange> = None;

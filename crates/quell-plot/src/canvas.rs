@@ -1,8 +1,8 @@
 //! The canvas on which a figure is drawn: takes shapes in pixels, returns SVG text.
 
-use super::geometry::PlotPoint;
 use std::fmt::{self, Write as _};
 
+use super::geometry::PlotPoint;
 use super::palette::{Colour, FRAME};
 use super::svg::{Document, Escaped, FIGURE_NAME, Hex, Number, TextAnchor};
 use super::typeset::RichText;

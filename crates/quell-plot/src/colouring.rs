@@ -220,7 +220,7 @@ impl ColourMap {
             return (false, false);
         };
         let PlotRange { lower: least, upper: most } = extremes.unwrap_or(self.range);
-        let slack = 1e-9 * (self.range.upper - self.range.lower);
+        let slack = 1e-9 * self.range.width();
         (
             least < self.range.lower - slack && shading.below.is_none(),
             most > self.range.upper + slack,

@@ -53,7 +53,7 @@ fn draw_outer(canvas: &mut Canvas, layout: &FigureLayout) {
         };
         canvas.text(line, PlotPoint::new(middle, baseline), setting);
     }
-    let room = layout.body.upper - layout.body.lower;
+    let room = layout.body.width();
     legend::draw_rows(
         canvas,
         &layout.shared,
@@ -308,9 +308,7 @@ fn draw_texts(
     for layer in &panel.layers {
         match layer {
             Layer::Note(note) => {
-                let shown = |value: f64, mapping: &Mapping| {
-                    value >= mapping.limits.lower && value <= mapping.limits.upper
-                };
+                let shown = |value: f64, mapping: &Mapping| mapping.limits.contains(value);
                 let placed = projection::note_area(note, (&x, &y), layout.frame, sizes);
                 let Some((area, lines)) = placed else { continue };
                 if shown(note.at.x, &x) && shown(note.at.y, &y) {

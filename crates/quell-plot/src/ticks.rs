@@ -38,7 +38,7 @@ impl Ticks {
             let step = values
                 .windows(2)
                 .map(|pair| (pair[1] - pair[0]).abs())
-                .fold(limits.upper - limits.lower, f64::min);
+                .fold(limits.width(), f64::min);
             return Self::linear(values, Vec::new(), step);
         }
         if axis.scale == Scale::Log && limits.upper / limits.lower >= 10.0 {
@@ -60,7 +60,7 @@ impl Ticks {
     }
 
     fn evenly(limits: PlotRange, count: usize) -> Self {
-        let step = step_for((limits.upper - limits.lower) / count as f64);
+        let step = step_for(limits.width() / count as f64);
         let values = multiples(limits, step);
         let leading = step / libm::pow(10.0, (libm::log10(step) + 1e-9).floor());
         let parts = if (leading - 2.0).abs() < 0.1 { 4 } else { 5 };

@@ -4,7 +4,7 @@ use pyo3::FromPyObject;
 use quell::run::protocol::{numbers_of, pair_of};
 use quell::run::system::start::StateNumbers;
 use quell::study::{Study, SystemStudy};
-use quell::{Failure, quantity};
+use quell::{Failure, RealInterval, quantity};
 
 /// Two numbers in the system of the study, or with units.
 pub(crate) type Pair = (String, String);
@@ -40,8 +40,8 @@ pub(crate) fn ends(
     study: &Study,
     parameter: &str,
     (from, to): &Pair,
-) -> Result<(f64, f64), Failure> {
+) -> Result<RealInterval, Failure> {
     let from = quantity::value_of(Some(study), from, parameter, "--from")?;
     let to = quantity::value_of(Some(study), to, parameter, "--to")?;
-    Ok((from, to))
+    Ok(RealInterval::new(from, to))
 }

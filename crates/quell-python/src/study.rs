@@ -13,7 +13,7 @@ use quell::run::response::ResponseTexts;
 use quell::run::varied::Range;
 use quell::study::vocabulary::DocumentKind;
 use quell::study::{Files, Kind, key_at};
-use quell::{Change, Complaints, Failure, Study};
+use quell::{Change, Complaints, Failure, RealInterval, Study};
 
 use crate::answer::NativeAnswer;
 use crate::arguments::{GivenState, Pair, ends};
@@ -438,7 +438,7 @@ impl NativeStudy {
         let (up, down) = ways;
         let study = self.study();
         let range = call::here(py, move || {
-            let (from, to) = ends(&study, &parameter, &range)?;
+            let RealInterval { lower: from, upper: to } = ends(&study, &parameter, &range)?;
             Ok(Range { parameter, from, to, points })
         })?;
         let request = SweepRequest { range, up, down };
@@ -563,7 +563,7 @@ fn range_over(
     over: Option<(String, Pair, usize)>,
 ) -> Result<Option<Range>, Failure> {
     let Some((parameter, range, points)) = over else { return Ok(None) };
-    let (from, to) = ends(study, &parameter, &range)?;
+    let RealInterval { lower: from, upper: to } = ends(study, &parameter, &range)?;
     Ok(Some(Range { parameter, from, to, points }))
 }
 

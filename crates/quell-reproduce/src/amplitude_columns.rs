@@ -6,6 +6,7 @@ use quell_dynamics::attractor::{
 };
 use quell_dynamics::orbit::{OrbitVerdict, branch_thresholds};
 use quell_model::{RefusedNumbers, System};
+use quell_numerics::interval::RealInterval;
 
 use super::axis::values;
 use super::failure::failed;
@@ -86,9 +87,11 @@ impl AmplitudeColumns {
             Ok(study.belt().system())
         };
         let ends = cases.first().zip(cases.last());
-        let window = ends.map_or((0.0, 0.0), |(first, last)| (first.amplitude, last.amplitude));
-        let found =
-            branch_thresholds(&at, window, STEPS, None).map_err(|why| failed(name, &why))?;
+        let window = ends.map_or(RealInterval::new(0.0, 0.0), |(first, last)| {
+            RealInterval::new(first.amplitude, last.amplitude)
+        });
+        let found = branch_thresholds(&at, window.lower, window.upper, STEPS, None)
+            .map_err(|why| failed(name, &why))?;
         let local = found.thresholds.iter().filter_map(|threshold| {
             let [was, is] = [threshold.was, threshold.becomes]
                 .map(|verdict| verdict == Some(OrbitVerdict::Stable));

@@ -152,6 +152,8 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         let law_curve = (0..=POINTS)
             .map(|k| TO * f64::from(k) / f64::from(POINTS))
             .map(|v| PlotPoint::new(v, law.coefficient(v)));
+        let windows = case.windows.iter().map(|w| PlotPoint::new(w.slip_velocity, w.coefficient));
+        let means = case.steady.iter().map(|&(v, mean, _)| PlotPoint::new(v, mean));
         let title = format!("({}) $D_N$ = {}", letter(index), case.amplitude);
         panels.push(
             Panel::new(
@@ -162,12 +164,9 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
             )
             .title(title)
             .with(
-                Points::new(
-                    PlotRole::Guide,
-                    case.windows.iter().map(|w| PlotPoint::new(w.slip_velocity, w.coefficient)),
-                )
-                .size(1.2)
-                .label("free decays, windows without stick"),
+                Points::new(PlotRole::Guide, windows)
+                    .size(1.2)
+                    .label("free decays, windows without stick"),
             )
             .with(
                 Polyline::new(PlotRole::Undithered, law_curve)
@@ -184,13 +183,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
             .with(
                 Polyline::new(PlotRole::Averaged, case.averaged.iter().copied()).label("averaging"),
             )
-            .with(
-                Polyline::new(
-                    PlotRole::Exact,
-                    case.steady.iter().map(|&(v, mean, _)| PlotPoint::new(v, mean)),
-                )
-                .label("steady responses"),
-            ),
+            .with(Polyline::new(PlotRole::Exact, means).label("steady responses")),
         );
     }
     let figure = Figure::grid(2, panels)

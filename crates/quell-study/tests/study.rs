@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use quell_study::study::{Axis, SystemStart};
 use quell_study::{BeltStudy, Change, Complaints, DiscStudy, Fault, Study};
 
@@ -844,9 +845,9 @@ fn the_numbers_of_an_oscillation_have_paths() {
     let belt = BeltStudy::parse(&text, &[]).expect("valid");
     let path = "belt.drive.oscillation.amplitude";
     assert_eq!(belt.number(path), Some(0.01));
-    let (_, largest) = belt.belt().drive().expect("a drive").bounds();
+    let RealInterval { upper: largest, .. } = belt.belt().drive().expect("a drive").bounds();
     let faster = belt.with(path, 0.02).expect("a study");
-    let (_, further) = faster.belt().drive().expect("a drive").bounds();
+    let RealInterval { upper: further, .. } = faster.belt().drive().expect("a drive").bounds();
     assert!((further / largest - 0.04 / 0.03).abs() < 1e-14, "{further} {largest}");
     let changed = |change: &str| BeltStudy::parse(&text, &set(&[change]));
     assert_eq!(

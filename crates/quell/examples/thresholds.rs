@@ -7,6 +7,7 @@ use quell::run::protocol::Protocol;
 use quell::run::thresholds::{self, ThresholdsRequest};
 use quell::verbs::system_of;
 use quell::{Failure, Study};
+use quell_numerics::interval::RealInterval;
 
 /// A Stribeck belt; the amplitude of its dither is varied.
 const STUDY: &str = r#"
@@ -35,7 +36,7 @@ pub(crate) fn main() -> Result<(), Failure> {
     let study = system_of(&Study::parse(STUDY, &[])?, "thresholds")?;
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        window: (0.4, 0.6),
+        window: RealInterval::new(0.4, 0.6),
         protocols: vec![Protocol::Rest],
         ..ThresholdsRequest::default()
     };

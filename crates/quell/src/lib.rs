@@ -168,6 +168,7 @@ pub mod verbs;
 
 pub use quell_input::{complaint, document, input, measurement, nearest, record, said};
 pub use quell_maps::{map, store, sweep};
+pub use quell_numerics::interval::RealInterval;
 pub use quell_plot as plot;
 pub use quell_study::{quantity, schema, study};
 pub use quell_verbs::{

@@ -28,6 +28,7 @@ use crate::run::{
 use crate::running::Running;
 use crate::said::Mention;
 use crate::study::{DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy, not_periodic};
+use quell_numerics::interval::RealInterval;
 
 /// The answer of a verb, or why it failed.
 pub type Reply = Result<Box<dyn Outcome>, Failure>;
@@ -186,7 +187,7 @@ impl Verbs {
     ///
     /// # Errors
     /// As [`reach::run`].
-    pub fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
+    pub fn reach(&self, frequencies: Option<RealInterval>) -> Reply {
         let study = self.system("resonances")?;
         answer(&study, reach::run(&study, frequencies))
     }
@@ -332,7 +333,7 @@ impl Verbs {
     ///
     /// # Errors
     /// As [`actuator::run`].
-    pub fn actuator(&self, frequencies: Option<(f64, f64)>) -> Reply {
+    pub fn actuator(&self, frequencies: Option<RealInterval>) -> Reply {
         let study = self.system("actuator")?;
         // The actuator of a disc is in SI, as the system of the disc is then.
         let study = match self.disc().and_then(|disc| disc.actuator().cloned()) {

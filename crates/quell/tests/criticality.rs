@@ -8,6 +8,7 @@ use quell::run::exponents::ExponentTimes;
 use quell::run::found_attractor::AttractorRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {
@@ -30,8 +31,11 @@ fn exponents(study: &Study, times: (f64, f64)) -> Json {
 
 fn thresholds(study: &Study, parameter: &str, from: f64, to: f64) -> Json {
     let parameter = parameter.to_owned();
-    let request =
-        ThresholdsRequest { parameter, window: (from, to), ..ThresholdsRequest::default() };
+    let request = ThresholdsRequest {
+        parameter,
+        window: RealInterval::new(from, to),
+        ..ThresholdsRequest::default()
+    };
     verbs(study).thresholds(&request).unwrap_or_else(|why| panic!("{why:?}")).json()
 }
 

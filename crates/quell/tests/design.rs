@@ -4,6 +4,7 @@ use quell::Study;
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use crate::designs::{complaint, facts};
@@ -104,7 +105,7 @@ fn designs_for_runs_agree_with_the_thresholds_of_runs() {
         let least = found["critical"]["dither.amplitude"].as_f64().expect("a number");
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            window: (0.01, 20.0),
+            window: RealInterval::new(0.01, 20.0),
             protocols: vec![protocol.clone()],
             ..ThresholdsRequest::default()
         };

@@ -8,6 +8,7 @@ use quell::run::simulate::MotionRequest;
 use quell::run::system::start::read_state;
 use quell::study::{DiscStudy, Study};
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 const PLATE: &str = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\n";
@@ -136,7 +137,8 @@ fn a_window_of_a_run() {
         let request = ResponseRequest { window: Some(window), ..ResponseRequest::default() };
         number(&verbs(&any).response(&request).expect("a window").json(), "amplitude")
     };
-    let (early, late) = (within((0.0, 20.0)), within((40.0, 60.0)));
+    let (early, late) =
+        (within(RealInterval::new(0.0, 20.0)), within(RealInterval::new(40.0, 60.0)));
     assert!(early > 0.0 && late != early, "{early} {late}");
     assert!(verbs(&any).response(&ResponseRequest::default()).is_err());
 }

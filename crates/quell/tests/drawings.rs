@@ -16,6 +16,7 @@ use quell::run::varied::Range;
 use quell::running::Running;
 use quell::verbs::{system_of, verbs};
 use quell::{BeltStudy, Change, DiscStudy, Study, picture};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn path(name: &str) -> std::path::PathBuf {
@@ -60,7 +61,7 @@ fn thresholds_are_marked_where_they_are() {
     let study = belt("can-dither-make-it-worse.toml", &[]);
     let question = thresholds::ThresholdsRequest {
         parameter: "dither.amplitude".into(),
-        window: (4.0, 10.5),
+        window: RealInterval::new(4.0, 10.5),
         protocols: vec![Protocol::Sliding],
         ..thresholds::ThresholdsRequest::default()
     };
@@ -100,9 +101,9 @@ fn curves_of_thresholds_are_drawn_point_by_point() {
     let study = belt("can-dither-make-it-worse.toml", &[]);
     let question = curves::CurvesRequest {
         parameter: "dither.amplitude".into(),
-        window: (0.1, 16.0),
+        window: RealInterval::new(0.1, 16.0),
         along: "belt.belt_velocity".into(),
-        between: (0.85, 1.5),
+        between: RealInterval::new(0.85, 1.5),
     };
     let study = system_of(&(&study).into(), "thresholds").expect("a system");
     let done = curves::run(&study, &question).expect("an answer");

@@ -13,6 +13,7 @@ use quell::run::response::ResponseRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::study::Change;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::random::SplitMix;
 use serde_json::Value as Json;
 
@@ -108,7 +109,7 @@ fn exact_amplitudes_close_to_the_load_are_thresholds() {
         let sine = &facts["waveforms"][0];
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            window: (0.02, 0.999),
+            window: RealInterval::new(0.02, 0.999),
             ..ThresholdsRequest::default()
         };
         let thresholds = verbs(&study).thresholds(&request).expect("thresholds").facts();
@@ -226,9 +227,10 @@ fn pad_with_stack(blocked_force: f64) -> String {
 /// The largest margin is that of the best row, at the ends of the range, at changes of the limit and at resonances too.
 #[test]
 fn the_largest_margin_is_the_largest_of_its_rows() {
-    let belts = [((9800.0, 40000.0), 5.0), ((9000.0, 30000.0), 15.0)]
-        .map(|(range, current)| (pad(range, current), (TAU * range.0, TAU * range.1)));
-    let systems = [0.05, 0.1].map(|force| (pad_with_stack(force), (3.0, 12.0)));
+    let belts = [((9800.0, 40000.0), 5.0), ((9000.0, 30000.0), 15.0)].map(|(range, current)| {
+        (pad(range, current), RealInterval::new(TAU * range.0, TAU * range.1))
+    });
+    let systems = [0.05, 0.1].map(|force| (pad_with_stack(force), RealInterval::new(3.0, 12.0)));
     let mut narrow = 0;
     for (text, range) in belts.into_iter().chain(systems) {
         let found = verbs(&study(&text)).actuator(Some(range)).expect("an actuator");
@@ -261,7 +263,7 @@ fn the_largest_margin_is_the_largest_of_its_rows() {
 /// where an undamped average needs nothing, the margin has no number.
 #[test]
 fn averages_in_the_band_of_the_vibration_are_named() {
-    let range = (TAU * 7000.0, TAU * 12000.0);
+    let range = RealInterval::new(TAU * 7000.0, TAU * 12000.0);
     let found = verbs(&study(&pad((7000.0, 12000.0), 15.0))).actuator(Some(range));
     let facts = found.expect("an actuator").facts();
     assert!(words(&facts["sentence"]).contains("which does not hold below"), "{facts}");

@@ -13,6 +13,7 @@ use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::verbs;
 use quell_linear::averaging::{AveragedLaw, Averaging, Effective, FastMotion};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -330,7 +331,7 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     warns(&orbit(&outside));
     let question = |to| thresholds::ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        window: (1.2, to),
+        window: RealInterval::new(1.2, to),
         ..thresholds::ThresholdsRequest::default()
     };
     let asked = |to| verbs(&(&inside).into()).thresholds(&question(to)).expect("thresholds").json();

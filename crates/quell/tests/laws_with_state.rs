@@ -14,6 +14,7 @@ use quell::study::{BeltStudy, Study, SystemStudy};
 use quell::verbs::verbs;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -350,14 +351,14 @@ fn belts_with_a_state_are_answered_as_their_systems() {
     assert_eq!(of_belt.orbit(&near).expect("an orbit").json()["verdict"], "stable");
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        window: (0.3, 0.8),
+        window: RealInterval::new(0.3, 0.8),
         protocols: vec![Protocol::Rest],
         ..ThresholdsRequest::default()
     };
     let a = of_belt.thresholds(&request).expect("thresholds").json();
     let b = ThresholdsRequest {
         parameter: "dither[0].amplitude".to_owned(),
-        window: (0.3, 0.8),
+        window: RealInterval::new(0.3, 0.8),
         near: None,
         protocols: vec![Protocol::Rest],
         ramp: 0.0,
@@ -449,7 +450,7 @@ fn belts_with_a_state_are_answered_in_si() {
         let ask = |study: &BeltStudy, parameter: &str, unit: f64| {
             let request = ThresholdsRequest {
                 parameter: parameter.to_owned(),
-                window: (0.3 * unit, 1.6 * unit),
+                window: RealInterval::new(0.3 * unit, 1.6 * unit),
                 protocols: Vec::new(),
                 ..ThresholdsRequest::default()
             };
@@ -502,7 +503,7 @@ fn thresholds_just_beyond_a_border_do_not_depend_on_the_window() {
     for (from, to) in [(0.2, 4.0), (0.5, 4.0), (0.2, 2.0), (0.01, 20.0), (0.9, 1.1)] {
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            window: (from, to),
+            window: RealInterval::new(from, to),
             protocols: Vec::new(),
             ..ThresholdsRequest::default()
         };

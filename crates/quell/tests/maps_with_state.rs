@@ -12,6 +12,7 @@ use quell::run::thresholds::ThresholdsRequest;
 use quell::running::Running;
 use quell::sweep::{MapQuantity, Plan, QUANTITIES};
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {
@@ -345,7 +346,7 @@ fn waveforms_know_the_state_in_their_exact_amplitudes() {
 fn assert_near_a_threshold(law: (&str, &str), amplitude: f64) {
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        window: (0.9 * amplitude, 1.1 * amplitude),
+        window: RealInterval::new(0.9 * amplitude, 1.1 * amplitude),
         near: None,
         protocols: Vec::<Protocol>::new(),
         ramp: 0.0,

@@ -206,8 +206,8 @@ fn thresholds_are_those_of_the_reference() {
         let at = |values: &[f64]| {
             model.at(&[(parameter.clone(), values[0])]).map_err(RefusedNumbers::by_study)
         };
-        let window = (number(&case["from"]), number(&case["to"]));
-        let found = branch_thresholds(&at, window, 8, None);
+        let (from, to) = (number(&case["from"]), number(&case["to"]));
+        let found = branch_thresholds(&at, from, to, 8, None);
         let found = found.unwrap_or_else(|why| panic!("{name}: {why}"));
         println!("{name}: {:?} {:?}", found.thresholds, found.ending);
         let wanted = number(&case["value"]);

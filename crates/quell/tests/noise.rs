@@ -8,6 +8,7 @@ use quell::study::{BeltStudy, SystemStudy};
 use quell::verbs::verbs;
 use quell_linear::averaging::{Averaging, FastMotion, critical_amplitudes};
 use quell_model::Waveform;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 const BELT: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\n\
@@ -261,7 +262,10 @@ fn noise_with_an_envelope() {
     let study = Study::from(&study(&text));
     assert_eq!(study.varies_by(), Some("dither.envelope"));
     verbs(&study).simulate(&MotionRequest::to(30.0)).expect("a run");
-    let window = ResponseRequest { window: Some((20.0, 40.0)), ..ResponseRequest::default() };
+    let window = ResponseRequest {
+        window: Some(RealInterval::new(20.0, 40.0)),
+        ..ResponseRequest::default()
+    };
     verbs(&study).response(&window).expect("a window");
     let half = study.at_time(10.0).expect("a moment");
     assert_eq!(half.belt().expect("a belt").belt().dithers()[0].amplitude, 1.5);

@@ -12,6 +12,7 @@ use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::verbs;
 use quell_design::quench::quench;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {
@@ -55,8 +56,11 @@ fn designs_waveforms_and_thresholds_of_a_slider_agree() {
     let verbs = verbs(&study);
     let thresholds = |from: f64, to: f64| {
         let parameter = "dither.amplitude_n".to_owned();
-        let request =
-            ThresholdsRequest { parameter, window: (from, to), ..ThresholdsRequest::default() };
+        let request = ThresholdsRequest {
+            parameter,
+            window: RealInterval::new(from, to),
+            ..ThresholdsRequest::default()
+        };
         verbs.thresholds(&request).expect("thresholds").facts()
     };
     let values: Vec<f64> = [(10.0, 2000.0), (306.0, 340.0), (320.0, 350.0)]
@@ -121,7 +125,7 @@ fn the_exact_amplitude_of_a_system_is_its_threshold() {
     let exact = number(&found["waveforms"][0]["exact_amplitude"]);
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        window: (0.9 * exact, 1.1 * exact),
+        window: RealInterval::new(0.9 * exact, 1.1 * exact),
         ..ThresholdsRequest::default()
     };
     let thresholds = verbs(&study).thresholds(&request).expect("thresholds").facts();
@@ -244,7 +248,7 @@ fn a_map_has_no_criterion_where_it_is_infinite() {
 fn a_refused_option_is_not_listed() {
     let request = TrackRequest {
         parameter: "belt.belt_velocity".to_owned(),
-        window: (0.1, 0.2),
+        window: RealInterval::new(0.1, 0.2),
         along: None,
     };
     let disc = "schema = 1\n[disc]\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\

@@ -6,6 +6,7 @@ use quell::run::response::ResponseRequest;
 use quell::run::simulate::MotionRequest;
 use quell::study::Study;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -243,7 +244,8 @@ fn a_window_warns_as_the_run_does() {
          law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n",
     );
     let run = simulated(&study, 50.0);
-    let window = verbs(&study).response(&within((40.0, 50.0))).expect("a window").json();
+    let window =
+        verbs(&study).response(&within(RealInterval::new(40.0, 50.0))).expect("a window").json();
     for answer in [run, window] {
         let warnings = answer["warnings"].to_string();
         assert!(warnings.contains("0.3464"), "{warnings}");
@@ -258,7 +260,8 @@ fn a_window_begins_as_the_run_does() {
          state = \"sliding\"\n[friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n",
     );
     assert_eq!(simulated(&study, 20.0)["event_count"], 0);
-    let window = verbs(&study).response(&within((0.0, 20.0))).expect("a window").json();
+    let window =
+        verbs(&study).response(&within(RealInterval::new(0.0, 20.0))).expect("a window").json();
     assert!(number(&window["amplitude"]) < 1e-12, "{window}");
     assert!((number(&window["mean"]) - 0.3).abs() < 1e-12, "{window}");
 }
@@ -285,6 +288,6 @@ fn intervals_of_short_runs_are_judged_by_an_oscillation_that_they_contain() {
 }
 
 /// The request of a window.
-fn within(window: (f64, f64)) -> ResponseRequest {
+fn within(window: RealInterval) -> ResponseRequest {
     ResponseRequest { window: Some(window), ..ResponseRequest::default() }
 }

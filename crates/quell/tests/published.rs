@@ -10,6 +10,7 @@ use quell::{BeltStudy, Study};
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
 use quell_dynamics::orbit::{OrbitVerdict, ThresholdKind, limit_cycles};
 use quell_dynamics::simulation::EventKind;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value;
 
 /// The independent integrator agrees with closed forms to 2e-12; periods and positions are of order 10.
@@ -166,7 +167,7 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
     let key = "belt.belt_velocity_m_per_s";
     let question = ThresholdsRequest {
         parameter: key.to_owned(),
-        window: (0.15, 0.25),
+        window: RealInterval::new(0.15, 0.25),
         ..ThresholdsRequest::default()
     };
     let system = system_of(&(&study).into(), "thresholds").expect("a system");

@@ -10,13 +10,14 @@ use quell::sweep::{MapQuantity, Plan};
 use quell::verbs::verbs;
 use quell_linear::averaging::AveragingError;
 use quell_linear::linearised::NoSteadySliding;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {
     Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-fn tracked(text: &str, parameter: &str, window: (f64, f64)) -> Json {
+fn tracked(text: &str, parameter: &str, window: RealInterval) -> Json {
     let request = TrackRequest { parameter: parameter.to_owned(), window, along: None };
     verbs(&study(text)).tracked_stability(&request).expect("an answer").json()
 }
@@ -54,13 +55,13 @@ fn a_verdict_about_an_opened_contact_is_conditional() {
     let found = verbs(&study(&closed)).stability().expect("an answer").json();
     assert!(sentence(&found).contains("steady sliding is stable: "), "{found}");
 
-    let found = tracked(&closed, "dither.amplitude", (1.0, 1000.0));
+    let found = tracked(&closed, "dither.amplitude", RealInterval::new(1.0, 1000.0));
     assert!(sentence(&found).contains("holds only where contact pad stays closed"), "{found}");
     assert!(
         warnings(&found).contains("contact pad opens for the dither amplitude from "),
         "{found}"
     );
-    let found = tracked(&closed, "dither.amplitude", (1.0, 2.0));
+    let found = tracked(&closed, "dither.amplitude", RealInterval::new(1.0, 2.0));
     assert_eq!(warnings(&found), "[]");
 }
 
@@ -88,7 +89,7 @@ fn maps_mark_opened_contacts_and_ranges_of_laws() {
     let found = map(&(text.clone() + axis), "growth-undithered");
     let wanted = serde_json::json!(["known", "beyond_range"]);
     assert_eq!(found["growth_undithered_status"], wanted, "{found}");
-    let found = tracked(&text, "contact.pad.belt_velocity", (1.0, 5.0));
+    let found = tracked(&text, "contact.pad.belt_velocity", RealInterval::new(1.0, 5.0));
     assert!(warnings(&found).contains("leaves the range of its friction law, 1.732 "), "{found}");
 }
 
@@ -105,7 +106,8 @@ fn fast_motions_without_oscillation_are_warned_of() {
 
 #[test]
 fn an_undamped_resonance_is_unbounded() {
-    let found = verbs(&study(&pad("[1, 1]", "[0, 0]", 0.1, 20.0))).reach(Some((0.5, 5.0)));
+    let found =
+        verbs(&study(&pad("[1, 1]", "[0, 0]", 0.1, 20.0))).reach(Some(RealInterval::new(0.5, 5.0)));
     let found = found.expect("an answer");
     let json = found.json();
     let extremes = &json["responses"][0]["extremes"];
@@ -116,7 +118,8 @@ fn an_undamped_resonance_is_unbounded() {
     assert_eq!(json["why"][path.as_str()], "unbounded (undamped resonance)", "{json}");
     assert!(found.text().contains("unbounded (undamped resonance)"));
     // A little damping bounds it.
-    let found = verbs(&study(&pad("[1, 1]", "[1e-9, 1e-9]", 0.1, 20.0))).reach(Some((0.5, 5.0)));
+    let found = verbs(&study(&pad("[1, 1]", "[1e-9, 1e-9]", 0.1, 20.0)))
+        .reach(Some(RealInterval::new(0.5, 5.0)));
     let json = found.expect("an answer").json();
     let extremes = json["responses"][0]["extremes"].as_array().expect("a list");
     assert!(extremes.iter().all(|at| at["slip_per_amplitude"].is_number()), "{json}");
@@ -134,7 +137,7 @@ fn messages_have_short_numbers() {
 #[test]
 fn ranges_without_an_answer_name_the_real_key() {
     let text = pad("[1, 1]", LIGHT, 0.1, 20.0);
-    let found = tracked(&text, "contact.pad.normal_stiffness", (-1.0, 1.0));
+    let found = tracked(&text, "contact.pad.normal_stiffness", RealInterval::new(-1.0, 1.0));
     let why = found["unknown"][0]["why"].as_str().expect("a reason");
     assert!(why.starts_with("contact.normal_stiffness = -1: must be"), "{why}");
 }
@@ -148,7 +151,9 @@ fn a_surface_that_comes_to_rest_is_a_point() {
     let law = "law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 1\n";
     let text = text.replace("law = \"coulomb\"\ncoefficient = 0.3\n", law);
     let path = "contact.pad.belt_velocity";
-    for window in [(-0.9, 1.1), (-1.0, 1.0), (-0.731, 1.2)] {
+    for window in
+        [RealInterval::new(-0.9, 1.1), RealInterval::new(-1.0, 1.0), RealInterval::new(-0.731, 1.2)]
+    {
         let request = TrackRequest { parameter: path.to_owned(), window, along: None };
         let found = verbs(&study(&text)).tracked_stability(&request).expect("an answer");
         let json = found.json();
@@ -164,7 +169,7 @@ fn a_surface_that_comes_to_rest_is_a_point() {
             let found = json["thresholds"].as_array().expect("a list").iter();
             found.map(|found| found["value"].as_f64().expect("a number")).collect()
         };
-        let sides = [(window.0, -1e-3), (1e-3, window.1)];
+        let sides = [RealInterval::new(window.lower, -1e-3), RealInterval::new(1e-3, window.upper)];
         let apart: Vec<f64> =
             sides.iter().flat_map(|side| values(&tracked(&text, path, *side))).collect();
         let whole = values(&json);
@@ -173,7 +178,7 @@ fn a_surface_that_comes_to_rest_is_a_point() {
             assert!((a - b).abs() < 1e-9, "{whole:?} {apart:?}");
         }
     }
-    assert_eq!(tracked(&text, path, (0.1, 1.0))["rests"], serde_json::json!([]));
+    assert_eq!(tracked(&text, path, RealInterval::new(0.1, 1.0))["rests"], serde_json::json!([]));
 }
 
 #[test]

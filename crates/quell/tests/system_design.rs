@@ -2,6 +2,7 @@
 
 use quell::Study;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use crate::designs::{complaint, facts};
@@ -123,7 +124,7 @@ fn dither_on_one_of_two_masses() {
         let study = Study::parse(&text, &[]).expect("a study");
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            window: (0.9 * amplitude, 1.1 * amplitude),
+            window: RealInterval::new(0.9 * amplitude, 1.1 * amplitude),
             ..ThresholdsRequest::default()
         };
         let thresholds = verbs(&study).thresholds(&request).expect("thresholds").facts();

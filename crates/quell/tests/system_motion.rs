@@ -13,6 +13,7 @@ use quell::run::thresholds::ThresholdsRequest;
 use quell::run::varied::Range;
 use quell::running::Running;
 use quell::verbs::verbs;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 /// Accuracy of states and event times.
@@ -179,7 +180,7 @@ fn thresholds(text: &str, request: &ThresholdsRequest) -> Json {
 fn request_of(case: &Json) -> ThresholdsRequest {
     ThresholdsRequest {
         parameter: case["parameter"].as_str().expect("a path").to_owned(),
-        window: (number(&case["from"]), number(&case["to"])),
+        window: RealInterval::new(number(&case["from"]), number(&case["to"])),
         ..ThresholdsRequest::default()
     }
 }

@@ -14,6 +14,7 @@ use quell::run::thresholds::curves::CurvesRequest;
 use quell::run::varied::Range;
 use quell::running::Running;
 use quell::verbs::{system_of, verbs};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 const LAW: &str =
@@ -62,7 +63,7 @@ fn running(stop: &AtomicBool) -> Running<'_> {
     Running { threads: Some(2), stop, progress: &() }
 }
 
-fn curves(study: &Study, window: (f64, f64), along: &str, between: (f64, f64)) -> Json {
+fn curves(study: &Study, window: RealInterval, along: &str, between: RealInterval) -> Json {
     let along = along.to_owned();
     let parameter = "dither.amplitude".to_owned();
     let request = CurvesRequest { parameter, window, along, between };
@@ -87,7 +88,7 @@ fn at(curve: &Json, along: f64) -> Option<f64> {
 /// A belt and the same belt as a system have the same curves.
 #[test]
 fn a_belt_as_a_system_has_the_same_curves() {
-    let (window, between) = ((0.5, 14.0), (0.85, 1.2));
+    let (window, between) = (RealInterval::new(0.5, 14.0), RealInterval::new(0.85, 1.2));
     let own = curves(&belt("decreasing", 1.0, &dither(1.0)), window, "belt.belt_velocity", between);
     let other = curves(
         &system("decreasing", 1.0, &dither(1.0)),
@@ -134,7 +135,12 @@ fn uncoupled() -> Study {
 #[test]
 fn a_curve_ends_where_another_threshold_crosses_it() {
     let two = uncoupled();
-    let found = curves(&two, (1.0, 6.0), "contact.first.belt_velocity", (0.85, 1.2));
+    let found = curves(
+        &two,
+        RealInterval::new(1.0, 6.0),
+        "contact.first.belt_velocity",
+        RealInterval::new(0.85, 1.2),
+    );
     assert_eq!(list(&found["curves"]).len(), 2);
     let crossed = "another threshold crosses it, and comes first beyond";
     assert_eq!(found["notes"].to_string().matches(crossed).count(), 2);
@@ -158,7 +164,7 @@ fn thresholds_of_equal_parts_are_found() {
     let two = uncoupled();
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        window: (1.0, 6.0),
+        window: RealInterval::new(1.0, 6.0),
         ..Default::default()
     };
     let found = verbs(&two).thresholds(&request).unwrap_or_else(|why| panic!("{why:?}")).json();
@@ -216,7 +222,10 @@ fn shares_of_random_starts_are_those_of_the_belt() {
             points: 3,
         });
         let system = system_of(study, "basins").expect("a system");
-        let axes = default_plane(&system, [Some((-0.3, 0.9)), Some((-0.3, 0.3))]);
+        let axes = default_plane(
+            &system,
+            [Some(RealInterval::new(-0.3, 0.9)), Some(RealInterval::new(-0.3, 0.3))],
+        );
         let axes = Some(axes.expect("a plane"));
         let request = BasinsRequest { axes, layout: Some(layout), over };
         let found = verbs(study).basins(&request, running(&stop));
@@ -252,7 +261,7 @@ fn runs_without_dither_change_where_the_squeal_ends() {
     let found = |study: &Study, parameter: &str| {
         let request = ThresholdsRequest {
             parameter: parameter.to_owned(),
-            window: (0.01, 3.0),
+            window: RealInterval::new(0.01, 3.0),
             protocols: vec![Protocol::Sliding, Protocol::Squeal],
             ..ThresholdsRequest::default()
         };
@@ -291,7 +300,7 @@ fn verbs_agree_next_to_an_unstable_limit_cycle() {
     let parameter = "belt.belt_velocity".to_owned();
     let request = ThresholdsRequest {
         parameter: parameter.clone(),
-        window: (0.85, 0.87),
+        window: RealInterval::new(0.85, 0.87),
         protocols: vec![Protocol::Rest],
         ..ThresholdsRequest::default()
     };
@@ -315,7 +324,12 @@ fn curves_warn_of_slip_beyond_the_law() {
         [dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.4\nfrequency_ratio = 10.0\n";
     let warned = |last: &str| {
         let study = study(&text.replace("LAST", last));
-        let found = curves(&study, (0.4, 0.6), "belt.belt_velocity", (0.049, 0.051));
+        let found = curves(
+            &study,
+            RealInterval::new(0.4, 0.6),
+            "belt.belt_velocity",
+            RealInterval::new(0.049, 0.051),
+        );
         assert!(!list(&found["curves"]).is_empty(), "{found}");
         found["warnings"].to_string().contains("range of the samples law")
     };
@@ -329,7 +343,7 @@ fn ramped_runs_change_where_those_of_the_belt_do() {
     let thresholds = |study: &Study| {
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            window: (0.42, 0.56),
+            window: RealInterval::new(0.42, 0.56),
             protocols: vec![Protocol::Squeal],
             ramp: 100.0,
             ..ThresholdsRequest::default()

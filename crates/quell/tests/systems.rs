@@ -7,6 +7,7 @@ use std::path::Path;
 use quell::run::system::tracked::TrackRequest;
 use quell::verbs::verbs;
 use quell::{Change, Study};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -22,7 +23,7 @@ fn stability(text: &str) -> Json {
     verbs(&study(text)).stability().expect("an answer").json()
 }
 
-fn tracked(text: &str, parameter: &str, window: (f64, f64)) -> Json {
+fn tracked(text: &str, parameter: &str, window: RealInterval) -> Json {
     let request = TrackRequest { parameter: parameter.to_owned(), window, along: None };
     verbs(&study(text)).tracked_stability(&request).expect("an answer").json()
 }
@@ -107,7 +108,7 @@ fn thresholds_are_those_of_the_reference() {
         let text = case["study"].as_str().expect("a study");
         let found = if case.get("from").is_some() {
             let parameter = case["parameter"].as_str().expect("a path");
-            let window = (number(&case["from"]), number(&case["to"]));
+            let window = RealInterval::new(number(&case["from"]), number(&case["to"]));
             tracked(text, parameter, window)["thresholds"].clone()
         } else {
             stability(text)["critical_amplitudes"].clone()
@@ -134,7 +135,7 @@ const MODE_COUPLING: &str = "[system]\ncoordinates = [\"x\", \"y\"]\nmass = [1, 
 #[test]
 fn frequencies_merge_at_three_quarters() {
     let path = "contact.pad.friction.coefficient";
-    let found = tracked(MODE_COUPLING, path, (0.5, 1.0))["thresholds"].clone();
+    let found = tracked(MODE_COUPLING, path, RealInterval::new(0.5, 1.0))["thresholds"].clone();
     assert_eq!(list(&found).len(), 1, "{found}");
     assert_eq!(
         (&found[0]["kind"], &found[0]["becomes"]),
@@ -145,7 +146,7 @@ fn frequencies_merge_at_three_quarters() {
     for damping in [0.02, 0.1] {
         let text = format!("{MODE_COUPLING}[parameters]\nc = {damping}\n")
             .replace("stiffness = [[", "damping = [[\"c\", 0], [0, \"c\"]]\nstiffness = [[");
-        let found = tracked(&text, path, (0.5, 1.0))["thresholds"].clone();
+        let found = tracked(&text, path, RealInterval::new(0.5, 1.0))["thresholds"].clone();
         let hopf = list(&found).iter().find(|found| found["kind"] == "hopf").expect("a Hopf point");
         close("Hopf", &hopf["value"], &(0.75 * (1.0 + 2.0 * damping * damping)).into(), 1e-12);
     }
@@ -161,8 +162,8 @@ fn a_narrow_range_of_instability_is_found_in_a_wide_window() {
              tangent = {{ x = 1 }}\nnormal = {{ y = 1 }}\nnormal_load = 1\nnormal_stiffness = 3.3\nbelt_velocity = 1\n\
              [contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.001\n"
         );
-        let wide = tracked(&text, "parameters.k", (0.5, 50.0));
-        let narrow = tracked(&text, "parameters.k", (3.29, 3.31));
+        let wide = tracked(&text, "parameters.k", RealInterval::new(0.5, 50.0));
+        let narrow = tracked(&text, "parameters.k", RealInterval::new(3.29, 3.31));
         let of = |found: &Json| -> Vec<f64> {
             let changes = list(&found["thresholds"]).iter();
             let changes = changes.filter(|found| found["was"] != found["becomes"]);
@@ -437,14 +438,17 @@ fn the_reach_over_any_range_is_a_number() {
     let text = "[system]\ncoordinates = [\"x\"]\nmass = [1]\ndamping = [[0.02]]\nstiffness = [[1]]\n[[contact]]\n\
                 tangent = { x = 1 }\nnormal_load = 1\nbelt_velocity = 0.05\n[contact.friction]\nlaw = \"coulomb\"\n\
                 coefficient = 0.4\n[[dither]]\nat = { x = 1 }\nwaveform = \"sine\"\namplitude = 0.4\nfrequency = 10\n";
-    let refused =
-        verbs(&study(text)).reach(Some((1e-300, 1e300))).map(|_| ()).expect_err("overflow");
+    let refused = verbs(&study(text))
+        .reach(Some(RealInterval::new(1e-300, 1e300)))
+        .map(|_| ())
+        .expect_err("overflow");
     let said = refused.to_string();
     assert!(
         said.contains("--frequency") && said.contains("overflow") && !said.contains("NaN"),
         "{said}"
     );
-    let wide = verbs(&study(text)).reach(Some((1e-100, 1e100))).expect("numbers").facts();
+    let wide =
+        verbs(&study(text)).reach(Some(RealInterval::new(1e-100, 1e100))).expect("numbers").facts();
     assert!(
         !wide.to_string().contains("NaN") && wide["from"] == 1e-100 && wide["to"] == 1e100,
         "{wide}"

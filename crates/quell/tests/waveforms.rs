@@ -16,6 +16,7 @@ use quell_dynamics::orbit::branch_thresholds;
 use quell_linear::averaging::{Averaging, Becomes, CrossingKind, critical_amplitudes};
 use quell_linear::linear_cost::linear_cost;
 use quell_model::{Belt, Direction, Dither, Waveform};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -75,7 +76,7 @@ fn averages_are_those_of_the_definition() {
         let study = study(row["study"].as_str().expect("text"));
         let ratio = number(&row["frequency_ratio"]);
         let waveform = study.belt().dithers()[0].waveform.clone();
-        let (least, largest) = waveform.integral_range();
+        let RealInterval { lower: least, upper: largest } = waveform.integral_range();
         let shape = &row["waveform"];
         assert!((largest - number(&shape["G_max"])).abs() < 1e-12, "{row}: {largest}");
         assert!((least - number(&shape["G_min"])).abs() < 1e-12, "{row}: {least}");
@@ -160,7 +161,7 @@ fn a_burst_without_pause_has_the_answers_of_its_carrier() {
         }
         let request = ThresholdsRequest {
             parameter: "dither.amplitude".to_owned(),
-            window: (0.2, 1.4),
+            window: RealInterval::new(0.2, 1.4),
             protocols: Vec::new(),
             ..ThresholdsRequest::default()
         };
@@ -243,7 +244,7 @@ fn held_samples_of_a_sine_have_its_exact_threshold() {
     let [held, sine] = [keys.as_str(), "waveform = \"sine\""].map(|keys| {
         let belt = study(&with("tangential", keys));
         let at = |values: &[f64]| Ok(belt.belt().with_amplitude(0, values[0])?.system());
-        let found = branch_thresholds(&at, (0.9, 1.3), 8, None).expect("a branch");
+        let found = branch_thresholds(&at, 0.9, 1.3, 8, None).expect("a branch");
         found.thresholds.iter().map(|threshold| threshold.value).collect::<Vec<f64>>()
     });
     assert!(!sine.is_empty());

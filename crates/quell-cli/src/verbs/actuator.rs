@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueHint};
 use quell::verbs::verbs;
-use quell::{Complaint, Failure, quantity};
+use quell::{RealInterval, Complaint, Failure, quantity};
 
 use super::numbers::pair;
 use crate::answer::Answer;
@@ -33,11 +33,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let plot = complaints.take(plot.and_then(|plot| plot.drawn_by(study.as_ref(), "actuator")));
     let read = |text: &str| quantity::dither_frequency(text, study.as_ref(), "--frequency");
     let frequency = arguments.frequency.as_deref();
-    let ascending = |text: &str| -> Result<(f64, f64), Box<Complaint>> {
-        let (from, to) = pair("--frequency", text, read)?;
+    let ascending = |text: &str| -> Result<RealInterval, Box<Complaint>> {
+        let RealInterval { lower: from, upper: to } = pair("--frequency", text, read)?;
         let allowed = "two positive frequencies FROM:TO, the second above the first";
         let wrong = || Box::new(Complaint::option("--frequency", text, allowed));
-        if 0.0 < from && from < to { Ok((from, to)) } else { Err(wrong()) }
+        if 0.0 < from && from < to { Ok(RealInterval::new(from, to)) } else { Err(wrong()) }
     };
     let frequency = frequency.map(ascending).transpose();
     let frequency = complaints.take(frequency);

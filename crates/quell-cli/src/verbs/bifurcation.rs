@@ -5,7 +5,7 @@ use quell::run::bifurcation::SweepRequest;
 use quell::run::varied::Range;
 use quell::running::Running;
 use quell::verbs::verbs;
-use quell::{Failure, Study};
+use quell::{RealInterval, Failure, Study};
 
 use super::numbers::{VariedArguments, count};
 use crate::answer::Answer;
@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let points = complaints.take(count("--points", &arguments.points));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((study, points), ((from, to), (outputs, plot))) =
+    let ((study, points), (RealInterval { lower: from, upper: to }, (outputs, plot))) =
         complaints.finish(study.zip(points).zip(ends.zip(outputs.zip(plot))))?;
     let range = Range { parameter: varied.parameter, from, to, points };
     let request = SweepRequest { range, up: arguments.up, down: arguments.down };

@@ -1,7 +1,7 @@
 //! Numbers and ranges in the options of several verbs: `--from`, `--to`, `--points`, `FROM:TO`, `X,V`, times.
 
 use clap::{Args, ValueHint};
-use quell::{Complaint, Study, quantity};
+use quell::{Complaint, RealInterval, Study, quantity};
 
 use crate::arguments::Gathered;
 
@@ -25,10 +25,10 @@ impl VariedArguments {
         &self,
         study: Option<&Study>,
         complaints: &mut Gathered,
-    ) -> Option<(f64, f64)> {
+    ) -> Option<RealInterval> {
         let from = complaints.take(number("--from", &self.from, &self.parameter, study));
         let to = complaints.take(number("--to", &self.to, &self.parameter, study));
-        from.zip(to)
+        Some(RealInterval::new(from?, to?))
     }
 }
 
@@ -54,10 +54,10 @@ pub(crate) fn ascending(
     option: &'static str,
     text: &str,
     read: impl Fn(&str) -> Result<f64, Box<Complaint>>,
-) -> Result<(f64, f64), Box<Complaint>> {
-    let (from, to) = pair(option, text, read)?;
-    if from < to {
-        return Ok((from, to));
+) -> Result<RealInterval, Box<Complaint>> {
+    let range = pair(option, text, read)?;
+    if range.lower < range.upper {
+        return Ok(range);
     }
     let allowed = "FROM:TO, two quantities, the first below the second, such as -1:1.5";
     Err(Box::new(Complaint::option(option, text, allowed)))
@@ -69,7 +69,7 @@ pub(crate) fn window(
     text: &str,
     parameter: &str,
     study: Option<&Study>,
-) -> Result<(f64, f64), Box<Complaint>> {
+) -> Result<RealInterval, Box<Complaint>> {
     pair(option, text, |text| quantity::value_of(study, text, parameter, option))
 }
 
@@ -78,10 +78,10 @@ pub(crate) fn pair(
     option: &'static str,
     text: &str,
     read: impl Fn(&str) -> Result<f64, Box<Complaint>>,
-) -> Result<(f64, f64), Box<Complaint>> {
+) -> Result<RealInterval, Box<Complaint>> {
     let Some((from, to)) = text.split_once(':') else {
         let allowed = "two finite numbers FROM:TO, such as 0.2:0.9";
         return Err(Box::new(Complaint::option(option, text, allowed)));
     };
-    Ok((read(from)?, read(to)?))
+    Ok(RealInterval::new(read(from)?, read(to)?))
 }

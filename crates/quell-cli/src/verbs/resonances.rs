@@ -4,7 +4,7 @@ use clap::{Args, ValueEnum, ValueHint};
 use quell::run::disc::resonances::{Order, ResonancesRequest};
 use quell::run::system::reach::without_waves;
 use quell::verbs::verbs;
-use quell::{Failure, Study, quantity};
+use quell::{RealInterval, Failure, Study, quantity};
 
 use super::numbers::pair;
 use crate::answer::Answer;
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 }
 
 /// The range of dither frequencies of a system.
-fn frequencies(arguments: &Arguments, study: &Study) -> Result<Option<(f64, f64)>, Failure> {
+fn frequencies(arguments: &Arguments, study: &Study) -> Result<Option<RealInterval>, Failure> {
     let (speeds, clear) = (arguments.speeds.as_deref(), arguments.clear.as_deref());
     without_waves(speeds, arguments.order.into(), clear)?;
     let text = arguments.frequency.as_deref();
@@ -90,7 +90,7 @@ fn request(
         let read = |text: &str| quantity::frequency(text, disc.as_ref(), option);
         complaints.take(text.as_deref().map(|text| pair(option, text, read)).transpose())
     };
-    let speeds = range("--speeds", &arguments.speeds).map(|speeds| speeds.unwrap_or((0.0, 1.0)));
+    let speeds = range("--speeds", &arguments.speeds).map(|speeds| speeds.unwrap_or(RealInterval::new(0.0, 1.0)));
     let clear = range("--clear", &arguments.clear);
     let frequency = range("--frequency", &arguments.frequency);
     let order = arguments.order.into();

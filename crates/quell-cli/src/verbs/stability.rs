@@ -3,7 +3,7 @@
 use clap::{Args, ValueHint};
 use quell::run::system::tracked::TrackRequest;
 use quell::verbs::verbs;
-use quell::{Complaint, Failure, Fault, Origin, Study};
+use quell::{RealInterval, Complaint, Failure, Fault, Origin, Study};
 
 use super::numbers::{number, window};
 use crate::answer::Answer;
@@ -91,6 +91,6 @@ impl Arguments {
             }
             _ => None,
         };
-        Some(Some(TrackRequest { parameter: parameter.clone(), window: (from?, to?), along }))
+        Some(Some(TrackRequest { parameter: parameter.clone(), window: RealInterval::new(from?, to?), along }))
     }
 }

@@ -1,7 +1,7 @@
 //! `quell thresholds`: exact parameter values at which the response changes.
 
 use clap::{Args, ValueHint};
-use quell::Failure;
+use quell::{RealInterval, Failure};
 use quell::run::protocol::{Protocol, read_state_of};
 use quell::run::system::start;
 use quell::run::thresholds::curves::CurvesRequest;
@@ -69,7 +69,7 @@ impl Arguments {
         &self,
         system: &SystemStudy,
         (from, to): (Option<f64>, Option<f64>),
-        between: Option<(f64, f64)>,
+        between: Option<RealInterval>,
         complaints: &mut Gathered,
     ) -> Option<ThresholdsRequest> {
         let mut read = |option, text: &Option<String>| {

@@ -7,6 +7,7 @@
 //! and its reversal between two samples are found if the ratio that decides them has an extreme at a sample, which a dip or peak of
 //! any width has.
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, minimise};
 
@@ -83,7 +84,7 @@ impl ActuatorAtFrequency {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BindingBand {
     /// Both ends.
-    pub ends: (f64, f64),
+    pub ends: RealInterval,
     /// The limit; `None` where the largest amplitude is unknown.
     pub limit: Option<ActuatorLimit>,
 }
@@ -92,7 +93,7 @@ pub struct BindingBand {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SufficientBand {
     /// Both ends.
-    pub ends: (f64, f64),
+    pub ends: RealInterval,
     /// The frequency of the largest margin in it.
     pub best: ActuatorAtFrequency,
 }
@@ -104,7 +105,7 @@ const NARROW: f64 = 0.02;
 impl SufficientBand {
     /// Its width, relative to its lower end.
     pub fn width(&self) -> f64 {
-        self.ends.1 / self.ends.0 - 1.0
+        self.ends.upper / self.ends.lower - 1.0
     }
 
     /// Whether it is too narrow to rely on.
@@ -162,25 +163,24 @@ pub fn coverage(samples: Vec<ActuatorAtFrequency>, at: &AtFrequency<'_>) -> Actu
     let binding: Vec<BindingBand> =
         binding.into_iter().map(|(ends, limit)| BindingBand { ends, limit }).collect();
     let quenching = bands(&points, ActuatorAtFrequency::suffices, at);
-    let quenching: Vec<(f64, f64)> =
+    let quenching: Vec<RealInterval> =
         quenching.into_iter().filter(|(_, suffices)| *suffices).map(|(ends, _)| ends).collect();
     // The margin may be largest where a limit takes over, or where the margin begins or ceases to be known.
     let known = bands(&points, |point| point.level().is_some(), at);
     let ends = binding.iter().map(|band| band.ends);
     let ends = ends.chain(quenching.iter().copied()).chain(known.into_iter().map(|(ends, _)| ends));
     let ends: Vec<ActuatorAtFrequency> = ends
-        .flat_map(|(from, to)| [from, to, to * (1.0 - f64::EPSILON)])
+        .flat_map(|RealInterval { lower: from, upper: to }| [from, to, to * (1.0 - f64::EPSILON)])
         .filter(|end| (points[0].frequency..=points[points.len() - 1].frequency).contains(end))
         .map(at)
         .collect();
     insert(&mut points, ends, |_| true);
     let sufficient = quenching.into_iter().map(|ends| SufficientBand {
         ends,
-        best: best(&points, ends).unwrap_or_else(|| at(ends.0)),
+        best: best(&points, ends).unwrap_or_else(|| at(ends.lower)),
     });
     let sufficient = sufficient.collect();
-    let whole = (f64::NEG_INFINITY, f64::INFINITY);
-    let best = best(&points, whole);
+    let best = best(&points, RealInterval::WHOLE);
     let resonances = resonances(&points, &dips_of_need, at);
     ActuatorCoverage { points, binding, sufficient, best, resonances }
 }
@@ -188,7 +188,7 @@ pub fn coverage(samples: Vec<ActuatorAtFrequency>, at: &AtFrequency<'_>) -> Actu
 impl ActuatorCoverage {
     /// The frequencies at which the limit that binds changes, with the limits below and above.
     pub fn changes(&self) -> impl Iterator<Item = (f64, [Option<ActuatorLimit>; 2])> {
-        self.binding.windows(2).map(|pair| (pair[0].ends.1, [pair[0].limit, pair[1].limit]))
+        self.binding.windows(2).map(|pair| (pair[0].ends.upper, [pair[0].limit, pair[1].limit]))
     }
 }
 
@@ -256,7 +256,7 @@ fn bands<T: PartialEq + Copy>(
     points: &[ActuatorAtFrequency],
     label: impl Fn(&ActuatorAtFrequency) -> T,
     at: &AtFrequency<'_>,
-) -> Vec<((f64, f64), T)> {
+) -> Vec<(RealInterval, T)> {
     let Some(first) = points.first() else { return Vec::new() };
     let (mut begin, mut current) = (first.frequency, label(first));
     let mut found = Vec::new();
@@ -264,11 +264,11 @@ fn bands<T: PartialEq + Copy>(
         let (mut low, high, last) = (pair[0].frequency, pair[1].frequency, label(&pair[1]));
         while current != last {
             let (end, next) = first_change(low, high, (current, last), |w| label(&at(w)));
-            found.push(((begin, end), current));
+            found.push((RealInterval::new(begin, end), current));
             (begin, current, low) = (end, next, end);
         }
     }
-    found.push(((begin, points[points.len() - 1].frequency), current));
+    found.push((RealInterval::new(begin, points[points.len() - 1].frequency), current));
     found
 }
 
@@ -295,8 +295,8 @@ fn first_change<T: PartialEq + Copy>(
 }
 
 /// The largest finite margin between two frequencies.
-fn best(points: &[ActuatorAtFrequency], (low, high): (f64, f64)) -> Option<ActuatorAtFrequency> {
-    let inside = points.iter().filter(|point| low <= point.frequency && point.frequency <= high);
+fn best(points: &[ActuatorAtFrequency], ends: RealInterval) -> Option<ActuatorAtFrequency> {
+    let inside = points.iter().filter(|point| ends.contains(point.frequency));
     let known = inside.filter_map(|point| Some((point, point.level()?)));
     known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(point, _)| point.clone())
 }
@@ -391,8 +391,8 @@ mod tests {
             [Some(ActuatorLimit::MaximumVoltage), Some(ActuatorLimit::MaximumCurrent)]
         );
         let [band] = &found.sufficient[..] else { panic!("one band: {:?}", found.sufficient) };
-        close(band.ends.0, 1.7);
-        close(band.ends.1, (2.34_f64 / 0.2).sqrt());
+        close(band.ends.lower, 1.7);
+        close(band.ends.upper, (2.34_f64 / 0.2).sqrt());
         // The margin falls with the frequency, so that it is largest where it begins to be known, between two samples.
         assert!(found.best.is_some_and(|best| (best.frequency / 1.7 - 1.0).abs() < 1e-12));
     }
@@ -411,10 +411,10 @@ mod tests {
         assert_eq!(changes.len(), 2, "{changes:?}");
         close(changes[0], centre - 0.5 / 40.0);
         close(changes[1], centre + 0.5 / 40.0);
-        let ends: Vec<(f64, f64)> = found.sufficient.iter().map(|band| band.ends).collect();
+        let ends: Vec<RealInterval> = found.sufficient.iter().map(|band| band.ends).collect();
         assert_eq!(ends.len(), 2, "{ends:?}");
-        close(ends[0].1, centre - 0.3 / 40.0);
-        close(ends[1].0, centre + 0.3 / 40.0);
+        close(ends[0].upper, centre - 0.3 / 40.0);
+        close(ends[1].lower, centre + 0.3 / 40.0);
     }
 
     /// A resonance lowers the requirement; it helps unless the actuator loses as much there.

@@ -1,6 +1,7 @@
 //! The errors of a table, measured at random points of the range.
 
 use quell_model::Waveform;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 use quell_numerics::random::SplitMix;
 
@@ -8,7 +9,12 @@ use super::point::{AtlasRange, RANGE};
 use super::{Atlas, AtlasLaw, AtlasSurface};
 
 /// Bands of ζ_f/R, whose errors differ by powers of ten.
-pub const ERROR_BANDS: [(f64, f64); 4] = [(0.0, 0.02), (0.02, 0.05), (0.05, 0.1), (0.1, 0.2)];
+pub const ERROR_BANDS: [RealInterval; 4] = [
+    RealInterval::new(0.0, 0.02),
+    RealInterval::new(0.02, 0.05),
+    RealInterval::new(0.05, 0.1),
+    RealInterval::new(0.1, 0.2),
+];
 
 /// The error stated over the largest measured: a sample of two hundred points misses the largest by less.
 const MARGIN: f64 = 2.0;
@@ -26,7 +32,7 @@ pub struct AtlasErrors {
     /// The surface.
     pub surface: AtlasSurface,
     /// The band of ζ_f/R.
-    pub band: (f64, f64),
+    pub band: RealInterval,
     /// Number of points.
     pub points: usize,
     /// The median, the quantile of 90 %, and the largest.
@@ -40,7 +46,7 @@ impl AtlasErrors {
     pub fn measured(
         atlas: &Atlas,
         (law, waveform, surface): (AtlasLaw, &Waveform, AtlasSurface),
-        band: (f64, f64),
+        band: RealInterval,
         (points, seed): (usize, u64),
         exact: impl FnOnce(&[Vec<f64>]) -> Vec<Option<f64>>,
     ) -> Option<Self> {
@@ -81,20 +87,20 @@ impl AtlasErrors {
 fn random_places(
     law: AtlasLaw,
     surface: AtlasSurface,
-    band: (f64, f64),
+    band: RealInterval,
     (points, seed): (usize, u64),
 ) -> Vec<Vec<f64>> {
     let mut random = SplitMix::new(seed);
     let AtlasRange { relative_damping, velocity_share, frequency_ratio, .. } = RANGE;
-    let mut within = |(low, high): (f64, f64)| (high - low).mul_add(random.share(), low);
-    let (shortest, longest) = frequency_ratio;
-    let logarithms = (libm::log(shortest), libm::log(longest));
+    let mut within = |range: RealInterval| range.width().mul_add(random.share(), range.lower);
+    let RealInterval { lower: shortest, upper: longest } = frequency_ratio;
+    let logarithms = RealInterval::new(libm::log(shortest), libm::log(longest));
     let mut place = || {
         let relative = within(relative_damping);
         let velocity = law.largest_velocity() * within(velocity_share);
         let inverse = libm::exp(-within(logarithms));
         let damping = within(band);
-        let share = within((0.0, 1.0));
+        let share = within(RealInterval::new(0.0, 1.0));
         match surface {
             AtlasSurface::Grazing => vec![relative, velocity, inverse, damping],
             AtlasSurface::NeutralDamping => vec![velocity, inverse, damping, share],

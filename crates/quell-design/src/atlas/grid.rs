@@ -8,20 +8,22 @@
 
 use core::f64::consts::PI;
 
+use quell_numerics::interval::RealInterval;
+
 /// An axis of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtlasAxis {
     /// Name of the group.
     pub name: String,
     /// Its interval.
-    pub range: (f64, f64),
+    pub range: RealInterval,
     /// Number of nodes, at least 1.
     pub count: usize,
 }
 
 impl AtlasAxis {
     /// An axis.
-    pub fn new(name: &str, range: (f64, f64), count: usize) -> Self {
+    pub fn new(name: &str, range: RealInterval, count: usize) -> Self {
         Self { name: name.to_owned(), range, count }
     }
 
@@ -31,7 +33,7 @@ impl AtlasAxis {
 
     /// The nodes, in ascending order.
     pub fn nodes(&self) -> Vec<f64> {
-        let (low, high) = self.range;
+        let RealInterval { lower: low, upper: high } = self.range;
         let node = |index| {
             let sine = libm::sin(self.angle(index));
             (high - low).mul_add(sine * sine, low)
@@ -89,7 +91,10 @@ mod tests {
     /// A polynomial of the degree of each axis is reproduced.
     #[test]
     fn polynomials_are_reproduced() {
-        let axes = [AtlasAxis::new("a", (-1.0, 2.0), 4), AtlasAxis::new("b", (0.0, 0.5), 3)];
+        let axes = [
+            AtlasAxis::new("a", RealInterval::new(-1.0, 2.0), 4),
+            AtlasAxis::new("b", RealInterval::new(0.0, 0.5), 3),
+        ];
         let polynomial = |a: f64, b: f64| a * a * a - 2.0 * a * b * b + 3.0 * b;
         let nodes = grid_nodes(&axes);
         assert_eq!(nodes.len(), 12);
@@ -105,7 +110,7 @@ mod tests {
     #[test]
     fn an_analytic_function_converges() {
         let error = |count: usize| {
-            let axis = AtlasAxis::new("x", (0.0, 1.0), count);
+            let axis = AtlasAxis::new("x", RealInterval::new(0.0, 1.0), count);
             let values: Vec<f64> = axis.nodes().into_iter().map(libm::exp).collect();
             let at = |x: f64| reduced(std::slice::from_ref(&axis), &values, &[x])[0] - libm::exp(x);
             (0..=50).map(|step| at(f64::from(step) / 50.0).abs()).fold(0.0, f64::max)

@@ -107,7 +107,7 @@ impl Atlas {
             errors.law == law
                 && errors.waveform == *waveform
                 && errors.surface == surface
-                && damping_per_cycle <= errors.band.1
+                && damping_per_cycle <= errors.band.upper
         });
         errors.map(AtlasErrors::stated)
     }

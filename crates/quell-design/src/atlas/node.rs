@@ -171,7 +171,7 @@ fn measured(belt: &Belt, amplitude: f64, orbit: &Orbit) -> Option<SlippingRespon
 fn by_continuation(point: &AtlasPoint, corner: f64) -> Option<f64> {
     let belt = point.belt(0.0).ok()?;
     let at = |values: &[f64]| Ok(belt.with_amplitude(0, values[0])?.system());
-    let branch = branch_thresholds(&at, (0.0, LIMIT * corner), STEPS, None).ok()?;
+    let branch = branch_thresholds(&at, 0.0, LIMIT * corner, STEPS, None).ok()?;
     let leaves = branch.changes.iter().find(|change| {
         let pure = change.below.as_ref().is_some_and(MotionSignature::is_pure_slip);
         pure && !change.above.as_ref().is_some_and(MotionSignature::is_pure_slip)

@@ -5,6 +5,7 @@ use quell_model::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, STATIC_COEFFICIENT, TANGENTIAL_STIFFNESS,
 };
 use quell_model::{Belt, Direction, Dither, InvalidValues, Waveform};
+use quell_numerics::interval::RealInterval;
 
 use super::WAVEFORMS;
 use super::law::{AtlasLaw, viscous};
@@ -13,22 +14,22 @@ use super::law::{AtlasLaw, viscous};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtlasRange {
     /// κ.
-    pub relative_damping: (f64, f64),
+    pub relative_damping: RealInterval,
     /// v₀/v_m over the largest of the law.
-    pub velocity_share: (f64, f64),
+    pub velocity_share: RealInterval,
     /// R.
-    pub frequency_ratio: (f64, f64),
+    pub frequency_ratio: RealInterval,
     /// ζ_f/R; 0 itself is excluded, as friction that does not fall drives no vibration.
-    pub damping_per_cycle: (f64, f64),
+    pub damping_per_cycle: RealInterval,
 }
 
 /// The range of the atlas. Beyond κ = 1 steady sliding is stable at every amplitude. Below R = 5 and under strong friction a flip
 /// beyond the grazing can end the loud range, and above ζ_f/R = 0.2 the interpolation loses digits.
 pub const RANGE: AtlasRange = AtlasRange {
-    relative_damping: (0.0, 1.0),
-    velocity_share: (0.02, 1.0),
-    frequency_ratio: (5.0, 200.0),
-    damping_per_cycle: (0.0, 0.2),
+    relative_damping: RealInterval::new(0.0, 1.0),
+    velocity_share: RealInterval::new(0.02, 1.0),
+    frequency_ratio: RealInterval::new(5.0, 200.0),
+    damping_per_cycle: RealInterval::new(0.0, 0.2),
 };
 
 /// Rounding that a study in SI may add to a group at the end of a range, relative.
@@ -61,7 +62,7 @@ pub struct OutsideAtlas {
     /// The value, if it is a word.
     pub word: Option<&'static str>,
     /// The least and the largest value that are allowed, in the numbers of the equations, if those of a number are.
-    pub range: Option<(f64, f64)>,
+    pub range: Option<RealInterval>,
     /// What is allowed, or why there is no more than the range.
     pub allowed: String,
 }
@@ -74,7 +75,7 @@ impl OutsideAtlas {
     fn of_number(
         key: impl Into<String>,
         value: f64,
-        range: (f64, f64),
+        range: RealInterval,
         allowed: impl Into<String>,
     ) -> Self {
         Self { value: Some(value), range: Some(range), ..Self::new(key, allowed) }
@@ -85,7 +86,9 @@ impl std::fmt::Display for OutsideAtlas {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { key, range, allowed, .. } = self;
         match range {
-            Some((low, high)) => write!(f, "{key} must be from {low} to {high}: {allowed}"),
+            Some(RealInterval { lower, upper }) => {
+                write!(f, "{key} must be from {lower} to {upper}: {allowed}")
+            }
             None => write!(f, "{key} must be {allowed}"),
         }
     }
@@ -153,33 +156,36 @@ impl AtlasPoint {
         let mut outside = Vec::new();
         if !within(self.relative_damping, relative_damping) {
             let viscous = self.damping_ratio() - belt.damping_ratio();
-            let most = (relative_damping.1 * self.friction_damping - viscous).max(0.0);
+            let most = (relative_damping.upper * self.friction_damping - viscous).max(0.0);
             let allowed = "at the largest, κ = ζ/ζ_f = 1, and beyond it steady sliding is stable under every tangential dither";
             let (key, value) = (DAMPING_RATIO.path, belt.damping_ratio());
-            outside.push(OutsideAtlas::of_number(key, value, (0.0, most), allowed));
+            let range = RealInterval::new(0.0, most);
+            outside.push(OutsideAtlas::of_number(key, value, range, allowed));
         }
         let largest = self.law.largest_velocity();
-        let velocities = (velocity_share.0 * largest, velocity_share.1 * largest);
+        let velocities =
+            RealInterval::new(velocity_share.lower * largest, velocity_share.upper * largest);
         if !within(self.relative_velocity, velocities) {
-            let (low, high) = velocities;
+            let RealInterval { lower: low, upper: high } = velocities;
             let allowed = format!("v₀/v_m from {low} to {high} for this law");
             let (key, value) = (BELT_VELOCITY.path, belt.belt_velocity());
-            outside.push(OutsideAtlas::of_number(key, value, (low * v_m, high * v_m), allowed));
+            let range = RealInterval::new(low * v_m, high * v_m);
+            outside.push(OutsideAtlas::of_number(key, value, range, allowed));
         }
         let path = belt.dither_path(0, "frequency_ratio");
         let value = self.frequency_ratio;
-        let least = self.friction_damping / damping_per_cycle.1;
+        let least = self.friction_damping / damping_per_cycle.upper;
         if !within(value, frequency_ratio) {
-            let (low, high) = frequency_ratio;
-            let range = (low.max(least), high);
+            let RealInterval { lower: low, upper: high } = frequency_ratio;
+            let range = RealInterval::new(low.max(least), high);
             let allowed = format!("R from {low} to {high}");
             outside.push(OutsideAtlas::of_number(path, value, range, allowed));
         } else if !within(self.damping_per_cycle(), damping_per_cycle) {
             let allowed = format!(
                 "ζ_f/R, the damping of friction per cycle of the dither, is at most {} in the atlas",
-                damping_per_cycle.1
+                damping_per_cycle.upper
             );
-            let range = (least, frequency_ratio.1);
+            let range = RealInterval::new(least, frequency_ratio.upper);
             outside.push(OutsideAtlas::of_number(path, value, range, allowed));
         }
         outside
@@ -222,8 +228,8 @@ impl AtlasPoint {
     }
 }
 
-fn within(value: f64, (low, high): (f64, f64)) -> bool {
-    value >= low * (1.0 - ROUNDING) && value <= high * (1.0 + ROUNDING)
+fn within(value: f64, range: RealInterval) -> bool {
+    value >= range.lower * (1.0 - ROUNDING) && value <= range.upper * (1.0 + ROUNDING)
 }
 
 /// What varies in time.

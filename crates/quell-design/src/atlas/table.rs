@@ -1,6 +1,7 @@
 //! One surface of one law and waveform at its nodes.
 
 use quell_model::Waveform;
+use quell_numerics::interval::RealInterval;
 
 use super::AtlasLaw;
 use super::grid::{AtlasAxis, grid_nodes, reduced};
@@ -41,18 +42,19 @@ impl AtlasSurface {
 
     /// The axes for a law. The numbers of nodes balance the errors of the axes.
     pub fn axes(self, law: AtlasLaw) -> Vec<AtlasAxis> {
+        let up_to = |upper: f64| RealInterval::new(0.0, upper);
         let velocity =
-            |count| AtlasAxis::new("relative_velocity", (0.0, law.largest_velocity()), count);
-        let inverse = AtlasAxis::new("inverse_frequency_ratio", (0.0, LARGEST_INVERSE_RATIO), 6);
+            |count| AtlasAxis::new("relative_velocity", up_to(law.largest_velocity()), count);
+        let inverse = AtlasAxis::new("inverse_frequency_ratio", up_to(LARGEST_INVERSE_RATIO), 6);
         let damping =
-            AtlasAxis::new("friction_damping_per_cycle", (0.0, LARGEST_DAMPING_PER_CYCLE), 8);
+            AtlasAxis::new("friction_damping_per_cycle", up_to(LARGEST_DAMPING_PER_CYCLE), 8);
         match self {
             Self::Grazing => {
-                let relative = AtlasAxis::new("relative_damping", (0.0, 1.0), 4);
+                let relative = AtlasAxis::new("relative_damping", up_to(1.0), 4);
                 vec![relative, velocity(12), inverse, damping]
             }
             Self::NeutralDamping => {
-                let share = AtlasAxis::new("grazing_share", (0.0, 1.0), 12);
+                let share = AtlasAxis::new("grazing_share", up_to(1.0), 12);
                 vec![velocity(14), inverse, damping, share]
             }
         }

@@ -7,6 +7,7 @@
 use std::fmt::Write as _;
 
 use quell_model::Waveform;
+use quell_numerics::interval::RealInterval;
 
 use super::grid::AtlasAxis;
 use super::{Atlas, AtlasErrors, AtlasLaw, AtlasSurface, AtlasTable};
@@ -90,8 +91,8 @@ impl Atlas {
     pub fn text(&self) -> String {
         let mut text = format!("{HEADING}\n");
         for table in &self.tables {
-            for AtlasAxis { name, range: (low, high), count } in table.surface.axes(table.law) {
-                let _ = writeln!(text, "axis {name} {low} {high} {count}");
+            for AtlasAxis { name, range, count } in table.surface.axes(table.law) {
+                let _ = writeln!(text, "axis {name} {} {} {count}", range.lower, range.upper);
             }
             let AtlasTable { law, waveform, surface, values } = table;
             let (law, waveform, surface) = (law.name(), waveform.name(), surface.name());
@@ -102,7 +103,7 @@ impl Atlas {
         }
         for AtlasErrors { law, waveform, surface, band, points, quantiles } in &self.errors {
             let (law, waveform, surface) = (law.name(), waveform.name(), surface.name());
-            let (low, high) = band;
+            let RealInterval { lower: low, upper: high } = band;
             let [median, high_quantile, largest] = quantiles;
             let _ = writeln!(
                 text,
@@ -150,7 +151,11 @@ impl AtlasReader {
             ["axis", name, low, high, count] => {
                 let count = count.parse().ok().filter(|count| *count > 0);
                 let count = count.ok_or(AtlasExpected::Nodes)?;
-                self.axes.push(AtlasAxis::new(name, (number(low)?, number(high)?), count));
+                self.axes.push(AtlasAxis::new(
+                    name,
+                    RealInterval::new(number(low)?, number(high)?),
+                    count,
+                ));
                 Ok(())
             }
             ["table", law, waveform, surface] => self.table(law, waveform, surface),
@@ -161,7 +166,7 @@ impl AtlasReader {
                     law,
                     waveform,
                     surface,
-                    band: (number(low)?, number(high)?),
+                    band: RealInterval::new(number(low)?, number(high)?),
                     points: points.parse().map_err(|_| AtlasExpected::Points)?,
                     quantiles: [number(median)?, number(most)?, number(largest)?],
                 });
@@ -231,8 +236,14 @@ mod tests {
         let values: Vec<f64> = (0..count).map(|index| 1.0 + index as f64 / 1024.0).collect();
         let table = AtlasTable { law, waveform: waveform.clone(), surface, values };
         let quantiles = [1e-8, 2e-7, 3e-6];
-        let errors =
-            AtlasErrors { law, waveform, surface, band: (0.0, 0.02), points: 9, quantiles };
+        let errors = AtlasErrors {
+            law,
+            waveform,
+            surface,
+            band: RealInterval::new(0.0, 0.02),
+            points: 9,
+            quantiles,
+        };
         let atlas = Atlas { tables: vec![table], errors: vec![errors] };
         let text = atlas.text();
         let read = Atlas::parse(&text).expect("an atlas");

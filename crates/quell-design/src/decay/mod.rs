@@ -9,6 +9,7 @@ mod start;
 
 use quell_model::RecordedQuantity;
 use quell_numerics::damped_least_squares::{DampedMinimum, DampedSearch, FittedFunction, fitted};
+use quell_numerics::interval::RealInterval;
 
 pub use motion::{DECAY_PARAMETERS, DecayReadings, FreeVibration, readings};
 pub use start::{NoDecay, dominant_frequency};
@@ -60,7 +61,7 @@ pub const DECAY_NAMES: [&str; DECAY_PARAMETERS] = [
 ];
 
 /// Bounds of the damping ratio: below critical, and not excited.
-const DAMPING: (f64, f64) = (0.0, 0.95);
+const DAMPING: RealInterval = RealInterval::new(0.0, 0.95);
 
 /// Periods of the first part that is fitted, and the factor by which it grows.
 const FIRST_PART: (f64, f64) = (4.0, 2.0);
@@ -158,17 +159,18 @@ fn over_growing_parts(
 /// The bounds. A given value is both of its bounds.
 fn search(given: &[Option<f64>; DECAY_PARAMETERS], omega: f64) -> DampedSearch {
     let infinite = f64::MAX;
+    let any = RealInterval::new(-infinite, infinite);
     let bounds = [
-        (0.5 * omega, 2.0 * omega),
+        RealInterval::new(0.5 * omega, 2.0 * omega),
         DAMPING,
-        (0.0, infinite),
-        (-infinite, infinite),
-        (-infinite, infinite),
-        (-infinite, infinite),
+        RealInterval::new(0.0, infinite),
+        any,
+        any,
+        any,
     ];
     let bounds = bounds.iter().zip(given);
-    let (lower, upper) =
-        bounds.map(|(bounds, given)| given.map_or(*bounds, |value| (value, value))).unzip();
+    let bounds = bounds.map(|(bounds, given)| given.map_or(*bounds, RealInterval::point));
+    let (lower, upper) = bounds.map(|RealInterval { lower, upper }| (lower, upper)).unzip();
     DampedSearch { lower, upper, steps: STEPS }
 }
 

@@ -7,6 +7,7 @@
 use std::f64::consts::PI;
 
 use quell_model::RecordedQuantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::least_squares::least_squares;
 use quell_numerics::spectrum::Spectrum;
 
@@ -19,7 +20,7 @@ const VISIBLE: f64 = 0.1;
 const LEAST_SAMPLES: usize = 4;
 
 /// Damping ratios of a start: those of a record in which several periods are visible.
-const DAMPING: (f64, f64) = (0.0, 0.3);
+const DAMPING: RealInterval = RealInterval::new(0.0, 0.3);
 
 /// Periods at the beginning that give the first state.
 const FIRST: f64 = 1.5;
@@ -90,7 +91,7 @@ pub(super) fn starts(
         return Ok(vec![with_state(omega, 0.01, 0.0, (times, data), quantity)]);
     };
     let logarithms = |point: &EnvelopePoint| libm::log(point.amplitude);
-    let zeta = (-slope(&envelope, logarithms) / omega).clamp(DAMPING.0, DAMPING.1);
+    let zeta = (-slope(&envelope, logarithms) / omega).clamp(DAMPING.lower, DAMPING.upper);
     // Amplitude of x.
     let scale = match quantity {
         RecordedQuantity::Displacement => 1.0,

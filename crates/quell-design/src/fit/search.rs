@@ -5,6 +5,7 @@
 //! reference velocity and the exponent are taken over: Kaufman's form of variable projection. Near the minimum undamped steps
 //! converge until they are at rounding.
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::least_squares::least_squares;
 use quell_numerics::order::ascending_by;
 
@@ -21,7 +22,7 @@ const PER_DECADE: f64 = 20.0;
 
 /// Exponents of the grid, and the range of the search: the largest is the bound of the parameter, and below the smallest the fall
 /// extends over more than ten decades of the slip speed.
-const EXPONENTS: (f64, f64) = (0.1, 100.0);
+const EXPONENTS: RealInterval = RealInterval::new(0.1, 100.0);
 
 /// Grid points of the exponent.
 const EXPONENT_POINTS: usize = 31;
@@ -95,8 +96,8 @@ fn searched(model: &FitModel, samples: &FitSamples) -> Vec<SearchedParameter> {
             Influence::Velocity => Some(SearchedParameter { place, lower, upper, points }),
             Influence::Exponent => Some(SearchedParameter {
                 place,
-                lower: EXPONENTS.0,
-                upper: EXPONENTS.1,
+                lower: EXPONENTS.lower,
+                upper: EXPONENTS.upper,
                 points: EXPONENT_POINTS,
             }),
             Influence::Linear | Influence::Nothing => None,

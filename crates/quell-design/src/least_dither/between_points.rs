@@ -6,6 +6,7 @@
 
 use std::sync::Mutex;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, descending_by};
 use quell_numerics::roots::{Closeness, minimise};
 
@@ -59,11 +60,14 @@ impl DesignProblem<'_> {
     /// The logarithm of the ratio of an amplitude to the nearest end of the quiet amplitudes by averaging, negative where it is loud;
     /// `None` where averaging has no answer. The ends of the range of amplitudes are no ends of quiet ones.
     fn averaged_distance(&self, point: f64, others: &[f64], amplitude: f64) -> Option<f64> {
-        let range = (self.amplitude.0.min(amplitude), self.amplitude.1.max(amplitude));
+        let range = RealInterval::new(
+            self.amplitude.lower.min(amplitude),
+            self.amplitude.upper.max(amplitude),
+        );
         let at = OperatingPoint { point: &[point], others };
         let quiet = self.plant.averaged(at, range).ok()?;
-        let ends = quiet.intervals().iter().flat_map(|(low, high)| {
-            [(*low > range.0).then_some(*low), (*high < range.1).then_some(*high)]
+        let ends = quiet.intervals().iter().flat_map(|RealInterval { lower: low, upper: high }| {
+            [(*low > range.lower).then_some(*low), (*high < range.upper).then_some(*high)]
         });
         let distance = |end: f64| libm::log(amplitude / end).abs();
         let nearest = ends.flatten().map(distance).filter(|distance| distance.is_finite());

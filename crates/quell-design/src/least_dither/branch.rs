@@ -3,6 +3,7 @@
 use quell_dynamics::orbit::{
     BranchEnding, BranchThresholds, OrbitVerdict, ResponseGap, ThresholdKind,
 };
+use quell_numerics::interval::RealInterval;
 
 use super::quiet::QuietAmplitudes;
 
@@ -26,7 +27,7 @@ pub(super) type BranchThreshold = (f64, f64, ThresholdKind, [Option<OrbitVerdict
 #[derive(Clone, Debug, PartialEq)]
 pub struct AmplitudeBranch {
     /// The range that was followed.
-    pub range: (f64, f64),
+    pub range: RealInterval,
     /// Whether the least amplitude is quiet.
     pub quiet_at_first: bool,
     /// The changes, in ascending order.
@@ -36,7 +37,7 @@ pub struct AmplitudeBranch {
 }
 
 impl AmplitudeBranch {
-    pub(super) fn new(range: (f64, f64), found: &BranchThresholds) -> Self {
+    pub(super) fn new(range: RealInterval, found: &BranchThresholds) -> Self {
         let thresholds = found.thresholds.iter().map(|threshold| {
             let sides = [threshold.was, threshold.becomes];
             (threshold.value, threshold.error, threshold.kind, sides)
@@ -48,7 +49,7 @@ impl AmplitudeBranch {
     /// From the thresholds in the order of a branch, the largest multiplier of its first response, and its ending. A branch that turns
     /// back ends the base response, wherever it continues to.
     pub(super) fn of(
-        range: (f64, f64),
+        range: RealInterval,
         first_radius: Option<f64>,
         thresholds: impl Iterator<Item = BranchThreshold> + Clone,
         ending: BranchEnding,
@@ -112,7 +113,7 @@ impl AmplitudeBranch {
     }
 
     /// Those in a part of the range that begins with it.
-    pub(super) fn quiet_within(&self, range: (f64, f64)) -> QuietAmplitudes {
+    pub(super) fn quiet_within(&self, range: RealInterval) -> QuietAmplitudes {
         let changes = self.changes.iter().map(|change| (change.amplitude, change.becomes_quiet));
         let end = self.end.map(|at| (at, false));
         QuietAmplitudes::of_changes(range, self.quiet_at_first, changes.chain(end))
@@ -127,7 +128,12 @@ mod tests {
     const UNSTABLE: Option<OrbitVerdict> = Some(OrbitVerdict::Unstable);
 
     fn branch(thresholds: &[BranchThreshold], ending: BranchEnding) -> AmplitudeBranch {
-        AmplitudeBranch::of((0.0, 10.0), Some(0.9), thresholds.iter().copied(), ending)
+        AmplitudeBranch::of(
+            RealInterval::new(0.0, 10.0),
+            Some(0.9),
+            thresholds.iter().copied(),
+            ending,
+        )
     }
 
     #[test]
@@ -139,7 +145,7 @@ mod tests {
         let back = (2.0, 0.0, ThresholdKind::Flip, [UNSTABLE, STABLE]);
         let found = branch(&[up, fold, back], BranchEnding::TurnedBack { at: 4.0 });
         assert_eq!(found.end, Some(4.0));
-        assert_eq!(found.quiet().intervals(), [(1.0, 4.0)]);
+        assert_eq!(found.quiet().intervals(), [RealInterval::new(1.0, 4.0)]);
         let amplitudes: Vec<f64> = found.changes.iter().map(|change| change.amplitude).collect();
         assert_eq!(amplitudes, [1.0, 4.0]);
     }
@@ -151,19 +157,22 @@ mod tests {
         let gap = |grazing, end| ResponseGap { grazing, end };
         let found = branch(&[up, down], BranchEnding::Covered);
         let gaps = [gap(1.0, 1.01), gap(2.0, 2.5), gap(4.0, 3.98)];
-        assert_eq!(found.without(&gaps).quiet().intervals(), [(1.01, 2.0), (2.5, 3.98)]);
+        assert_eq!(
+            found.without(&gaps).quiet().intervals(),
+            [RealInterval::new(1.01, 2.0), RealInterval::new(2.5, 3.98)]
+        );
         // From another side nothing more is unknown.
         let found = branch(&[up, down], BranchEnding::Covered);
         let gaps = [gap(1.0, 0.9), gap(4.0, 4.2), gap(6.0, 7.0)];
-        assert_eq!(found.without(&gaps).quiet().intervals(), [(1.0, 4.0)]);
+        assert_eq!(found.without(&gaps).quiet().intervals(), [RealInterval::new(1.0, 4.0)]);
     }
 
     #[test]
     fn without_thresholds_the_first_response_decides() {
         let found = branch(&[], BranchEnding::Covered);
         assert!(found.quiet_at_first && found.changes.is_empty());
-        assert_eq!(found.quiet().intervals(), [(0.0, 10.0)]);
+        assert_eq!(found.quiet().intervals(), [RealInterval::new(0.0, 10.0)]);
         let lost = branch(&[], BranchEnding::Lost { at: 3.0 });
-        assert_eq!(lost.quiet().intervals(), [(0.0, 3.0)]);
+        assert_eq!(lost.quiet().intervals(), [RealInterval::new(0.0, 3.0)]);
     }
 }

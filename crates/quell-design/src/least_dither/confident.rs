@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, ascending_by};
 
 use super::exact_box::{ExactBox, Near, QuietSet, WINDOW};
@@ -67,7 +68,7 @@ impl DesignProblem<'_> {
     ) -> Result<LeastOfSample, NoLeast> {
         let quiet = |point: &[f64]| (sample.averaged)(point, self.amplitude);
         let (step, closeness) = STEPS;
-        let Self { over: ranges, amplitude: (from, _), tasks, .. } = *self;
+        let Self { over: ranges, amplitude: RealInterval { lower: from, .. }, tasks, .. } = *self;
         let search = BoxSearch { ranges, from, step, closeness, tasks };
         least_of_box(search, self.points_near(design), &quiet).map(LeastOfSample)
     }
@@ -84,11 +85,11 @@ impl DesignProblem<'_> {
         let LeastOfBox { amplitude, worst, decisive } = &averaged.0;
         let near = Near { amplitude: *amplitude, decisive, worst: worst.as_ref() };
         let exact_box = ExactBox { closeness: CLOSENESS, ..ExactBox::of(self) };
-        let found = exact_box.least(&*sample.exact, near, WINDOW.0 * amplitude);
+        let found = exact_box.least(&*sample.exact, near, WINDOW.lower * amplitude);
         let found = match found {
             // Far from averaging.
             Err(NoLeast::NeverQuiet { .. }) => {
-                let (from, to) = self.amplitude;
+                let RealInterval { lower: from, upper: to } = self.amplitude;
                 exact_box.least(&*sample.exact, Near { amplitude: to, ..near }, from)
             }
             found => found,
@@ -130,7 +131,7 @@ pub struct LeastQuantile {
     /// The quantile.
     pub value: f64,
     /// Its interval.
-    pub interval: (f64, f64),
+    pub interval: RealInterval,
 }
 
 /// Least amplitudes of samples: of all by averaging, of some exactly. Infinite where no amplitude is quiet, or none is known to be.
@@ -192,7 +193,7 @@ impl SampledLeast {
         let mut best = self.enough();
         ascending(&mut best);
         let [low, value, high] = self.ranks(probability)?.map(|rank| best[rank]);
-        Some(LeastQuantile { value, interval: (low, high) })
+        Some(LeastQuantile { value, interval: RealInterval::new(low, high) })
     }
 
     /// The places of the quantile and of the ends of its interval among the samples in ascending order.
@@ -203,9 +204,9 @@ impl SampledLeast {
         // Rounding must not add a sample.
         let rank =
             |share: f64| ((share * count - 1e-9).ceil() as usize).saturating_sub(1).min(last);
-        let (low, high) =
+        let interval =
             binomial_interval((probability * count).round() as usize, self.averaged.len());
-        Some([rank(low), rank(probability), rank(high)])
+        Some([interval.lower, probability, interval.upper].map(rank))
     }
 
     /// The samples whose exact amplitude may decide the quantile, or an end of its interval, and is not known.
@@ -231,7 +232,7 @@ impl SampledLeast {
         }
         let within = |sample: &usize| {
             let averaged = self.averaged[*sample];
-            averaged * most >= found.interval.0 && averaged * least <= found.interval.1
+            averaged * most >= found.interval.lower && averaged * least <= found.interval.upper
         };
         (0..self.averaged.len()).filter(|sample| unknown(sample) && within(sample)).collect()
     }
@@ -265,7 +266,7 @@ mod tests {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
             let rank = (probability * count as f64).round() as usize - 1;
             assert_eq!(found.value, all[rank], "{probability}");
-            let (low, high) = found.interval;
+            let RealInterval { lower: low, upper: high } = found.interval;
             assert!(low < found.value && found.value < high && known.known() < count / 3);
             assert!(all.contains(&low) && all.contains(&high));
         }
@@ -284,6 +285,6 @@ mod tests {
         }
         let at = |probability: f64| known.quantile(probability).expect("samples").value;
         assert_eq!((at(0.95), at(0.96)), (1.94, f64::INFINITY));
-        assert!(known.quantile(0.9).expect("samples").interval.1 < f64::INFINITY);
+        assert!(known.quantile(0.9).expect("samples").interval.upper < f64::INFINITY);
     }
 }

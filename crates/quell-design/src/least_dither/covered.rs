@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, descending_by};
 use quell_numerics::roots::{Closeness, minimise};
 
@@ -120,7 +121,7 @@ struct AveragedLine<'a> {
 struct LengthOfAmplitude {
     length: f64,
     amplitude: f64,
-    between: (f64, f64),
+    between: RealInterval,
 }
 
 impl<'a> AveragedLine<'a> {
@@ -158,12 +159,15 @@ impl<'a> AveragedLine<'a> {
 
     /// The amplitude whose part of the points is largest; `None` where no amplitude is quiet and allowed at a point.
     fn best(&self) -> Option<LengthOfAmplitude> {
-        let (from, to) = self.problem.amplitude;
+        let RealInterval { lower: from, upper: to } = self.problem.amplitude;
         let mut amplitudes: Vec<f64> =
-            grid(&[(from, to)], [1, AMPLITUDES, 2, 2], true).into_iter().flatten().collect();
+            grid(&[RealInterval::new(from, to)], [1, AMPLITUDES, 2, 2], true)
+                .into_iter()
+                .flatten()
+                .collect();
         // The ends of quiet sets are where the part changes.
         amplitudes.extend(self.sets.iter().flatten().flat_map(|set| {
-            set.intervals().iter().map(|(low, _)| low * (1.0 + 1e-9)).filter(|low| *low <= to)
+            set.intervals().iter().map(|quiet| quiet.lower * (1.0 + 1e-9)).filter(|low| *low <= to)
         }));
         ascending(&mut amplitudes);
         amplitudes.dedup();
@@ -176,7 +180,10 @@ impl<'a> AveragedLine<'a> {
         let first = lengths.iter().position(|known| *known == Some(length))?;
         let equal = lengths[first..].iter().take_while(|known| **known == Some(length)).count();
         let last = amplitudes.len() - 1;
-        let between = (amplitudes[first.saturating_sub(1)], amplitudes[(first + equal).min(last)]);
+        let between = RealInterval::new(
+            amplitudes[first.saturating_sub(1)],
+            amplitudes[(first + equal).min(last)],
+        );
         Some(LengthOfAmplitude { length, amplitude: amplitudes[first], between })
     }
 
@@ -199,7 +206,7 @@ impl<'a> AveragedLine<'a> {
 
     /// The dither whose part is largest among the amplitudes between those that were tried.
     fn refined(self, best: LengthOfAmplitude) -> Tried {
-        let (low, high) = best.between;
+        let RealInterval { lower: low, upper: high } = best.between;
         let found = minimise(|value| -self.length(value), low, high, Closeness::default());
         let inside = found.ok().map(|found| (-found.value, found.location));
         let known = [best.amplitude, high].map(|amplitude| (self.length(amplitude), amplitude));

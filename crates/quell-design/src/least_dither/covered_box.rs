@@ -2,12 +2,13 @@
 
 use super::LimitedQuantity;
 use crate::NoAnswer;
+use quell_numerics::interval::RealInterval;
 
 /// The part of a box that one dither serves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoveredBox {
     /// Both ends of the coordinate of the box, which were judged as all points between them.
-    pub ends: (f64, f64),
+    pub ends: RealInterval,
     /// The amplitude.
     pub amplitude: f64,
     /// Values of the other design variables.
@@ -40,7 +41,7 @@ impl CoveredBox {
     }
 
     pub(super) fn length(&self) -> f64 {
-        self.ends.1 - self.ends.0
+        self.ends.width()
     }
 }
 

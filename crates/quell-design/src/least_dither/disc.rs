@@ -26,6 +26,7 @@ use quell_linear::linearised::Linearised;
 use quell_model::disc::{Contributions, DiscDither};
 use quell_model::system::InputTarget;
 use quell_model::{Disc, RefusedNumbers};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 
 use super::search::grid;
@@ -72,7 +73,7 @@ impl DiscPlant<'_> {
     /// The parts of a line between its marginal values, each with the verdict at its middle.
     fn parts<'l>(
         line: &'l dyn Fn(f64) -> Result<Vec<DiscExponent>, NoAnswer>,
-        (from, to): (f64, f64),
+        RealInterval { lower: from, upper: to }: RealInterval,
         values: &'l [MarginalValue],
     ) -> impl Iterator<Item = Result<(f64, f64, bool), NoAnswer>> + 'l {
         let ends: Vec<f64> = std::iter::once(from)
@@ -86,7 +87,7 @@ impl DiscPlant<'_> {
     }
 
     /// The speeds at which tongues may be at the largest amplitude, or their centre.
-    fn predicted(disc: &Disc, (from, to): (f64, f64)) -> Vec<f64> {
+    fn predicted(disc: &Disc, RealInterval { lower: from, upper: to }: RealInterval) -> Vec<f64> {
         let mut speeds = Vec::new();
         let Ok(waves) = Waves::new(disc) else { return speeds };
         for order in [Order::First, Order::Second] {
@@ -109,9 +110,9 @@ impl DiscPlant<'_> {
     }
 
     /// The box without its speed, at a few points each with a place for the speed.
-    fn at_other_coordinates(ranges: &[(f64, f64)], speed: usize) -> Vec<Vec<f64>> {
+    fn at_other_coordinates(ranges: &[RealInterval], speed: usize) -> Vec<Vec<f64>> {
         let mut fixed = ranges.to_vec();
-        fixed[speed] = (ranges[speed].0, ranges[speed].0);
+        fixed[speed] = RealInterval::new(ranges[speed].lower, ranges[speed].lower);
         grid(&fixed, OTHER_POINTS, false)
     }
 }
@@ -122,9 +123,9 @@ impl Plant for DiscPlant<'_> {
     fn averaged(
         &self,
         at: OperatingPoint<'_>,
-        range: (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer> {
-        let disc = (self.at)(at, range.1)?;
+        let disc = (self.at)(at, range.upper)?;
         let Ok(waves) = Waves::new(&disc) else { return self.exact(at, range) };
         let still = match disc.dither() {
             DiscDither::None | DiscDither::Normal { .. } => disc.undithered(),
@@ -141,9 +142,9 @@ impl Plant for DiscPlant<'_> {
     fn exact(
         &self,
         at: OperatingPoint<'_>,
-        range: (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer> {
-        let (from, to) = range;
+        let RealInterval { lower: from, upper: to } = range;
         let line = |amplitude: f64| self.exponents(at, amplitude);
         if from >= to {
             let quiet = !grows(&line(from)?);
@@ -213,7 +214,7 @@ impl Plant for DiscPlant<'_> {
         let DiscDither::Normal { amplitude, .. } = disc.dither() else {
             return Err(NoAnswer::NotOfDisc(NotOfDisc::VaryingLoad));
         };
-        let left = amplitude.mul_add(disc.waveform().range().0, 1.0);
+        let left = amplitude.mul_add(disc.waveform().range().lower, 1.0);
         let loads = disc.loads().iter().filter_map(|load| load.normal_load);
         loads
             .map(|load| left * load)
@@ -245,7 +246,7 @@ impl Plant for DiscPlant<'_> {
 
     fn special_points(
         &self,
-        ranges: &[(f64, f64)],
+        ranges: &[RealInterval],
         others: &[f64],
         largest: f64,
     ) -> Result<Vec<Vec<f64>>, NoAnswer> {
@@ -264,7 +265,7 @@ impl Plant for DiscPlant<'_> {
 
     fn loud_points(
         &self,
-        ranges: &[(f64, f64)],
+        ranges: &[RealInterval],
         others: &[f64],
         amplitude: f64,
     ) -> Result<Vec<Vec<f64>>, NoAnswer> {
@@ -281,7 +282,7 @@ impl Plant for DiscPlant<'_> {
                 self.exponents(OperatingPoint { point: &at(value), others }, amplitude)
             };
             let disc = (self.at)(OperatingPoint { point: &place, others }, amplitude)?;
-            let speeds = tongue_grid(&disc, &(range.0..=range.1), SPEEDS);
+            let speeds = tongue_grid(&disc, &(range.lower..=range.upper), SPEEDS);
             let values = marginal_values(&line, &speeds)?;
             for part in Self::parts(&line, range, &values) {
                 let (low, high, grown) = part?;

@@ -1,5 +1,6 @@
 //! The least dither by exact thresholds, near that of averaging, and its verification.
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 
 use super::exact_box::{ExactBox, WINDOW};
@@ -201,7 +202,7 @@ impl DesignProblem<'_> {
 
     /// The exact least amplitude at a choice of the other design variables, near that of a neighbouring choice.
     fn exact_point(&self, others: &[f64], near: &DesignPoint) -> Result<DesignPoint, NoDesign> {
-        self.exact_point_from(others, near, near.amplitude * WINDOW.0)
+        self.exact_point_from(others, near, near.amplitude * WINDOW.lower)
     }
 
     /// The same, with amplitudes from `lowest` on.
@@ -211,7 +212,7 @@ impl DesignProblem<'_> {
         near: &DesignPoint,
         lowest: f64,
     ) -> Result<DesignPoint, NoDesign> {
-        let quiet = |point: &[f64], range: (f64, f64)| {
+        let quiet = |point: &[f64], range: RealInterval| {
             self.plant.exact(OperatingPoint { point, others }, range)
         };
         let found = ExactBox::of(self).least(&quiet, near.into(), lowest)?;
@@ -220,7 +221,9 @@ impl DesignProblem<'_> {
 
     /// The choice on the limit: the first design variable moves until the exact amplitude uses the limit wholly.
     fn at_the_limit(&self, start: DesignPoint) -> Result<DesignPoint, NoDesign> {
-        let Some((low, high)) = self.others.first().copied() else { return Ok(start) };
+        let Some(RealInterval { lower: low, upper: high }) = self.others.first().copied() else {
+            return Ok(start);
+        };
         let mut before = start.clone();
         let moved = |point: &DesignPoint, value: f64| {
             let mut others = point.others.clone();
@@ -249,7 +252,7 @@ impl DesignProblem<'_> {
     fn at_the_minimum(&self, start: DesignPoint) -> DesignPoint {
         const STEP: f64 = 0.01;
         let mut best = start;
-        for (coordinate, (low, high)) in self.others.iter().enumerate() {
+        for (coordinate, RealInterval { lower, upper }) in self.others.iter().enumerate() {
             let value = best.others[coordinate];
             let at = |value: f64| {
                 let mut others = best.others.clone();
@@ -258,8 +261,8 @@ impl DesignProblem<'_> {
                 let objective = point.allowed()?;
                 Some((objective, point))
             };
-            let size = STEP * if *low > 0.0 { value } else { high - low };
-            if value - size < *low || value + size > *high {
+            let size = STEP * if *lower > 0.0 { value } else { upper - lower };
+            if value - size < *lower || value + size > *upper {
                 continue;
             }
             let (Some(left), Some(right), Some(middle)) =

@@ -6,9 +6,10 @@ use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, judged, least_from};
 use super::{DesignProblem, DesignStart};
 use crate::NoAnswer;
 use crate::tasks::Tasks;
+use quell_numerics::interval::RealInterval;
 
 /// Window of exact thresholds about the amplitude of averaging, as factors.
-pub(super) const WINDOW: (f64, f64) = (0.85, 1.15);
+pub(super) const WINDOW: RealInterval = RealInterval::new(0.85, 1.15);
 
 /// First step over the box about the points of averaging, as a share of its ranges.
 const FIRST_STEP: f64 = 0.015625;
@@ -22,15 +23,15 @@ const BELOW: f64 = 1e-12;
 
 /// The quiet amplitudes of an operating point in a range, or why they are unknown.
 pub(super) type QuietSet<'a> =
-    dyn Fn(&[f64], (f64, f64)) -> Result<QuietAmplitudes, NoAnswer> + Sync + 'a;
+    dyn Fn(&[f64], RealInterval) -> Result<QuietAmplitudes, NoAnswer> + Sync + 'a;
 
 /// A box of operating points with the amplitudes that are allowed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ExactBox<'a> {
     /// Both ends of every coordinate.
-    pub(super) over: &'a [(f64, f64)],
+    pub(super) over: &'a [RealInterval],
     /// Smallest and largest amplitude.
-    pub(super) amplitude: (f64, f64),
+    pub(super) amplitude: RealInterval,
     /// The runs that must end quiet.
     pub(super) start: DesignStart,
     /// Last step over the box, as a share of its ranges.
@@ -75,11 +76,11 @@ impl<'a> ExactBox<'a> {
             return box_points(self.over);
         }
         for point in points.clone() {
-            for (coordinate, (low, high)) in self.over.iter().enumerate() {
+            for (coordinate, RealInterval { lower, upper }) in self.over.iter().enumerate() {
                 for sign in [1.0, -1.0] {
                     let mut next = point.clone();
-                    let value = point[coordinate] + sign * FIRST_STEP * (high - low);
-                    next[coordinate] = value.clamp(*low, *high);
+                    let value = point[coordinate] + sign * FIRST_STEP * (upper - lower);
+                    next[coordinate] = value.clamp(*lower, *upper);
                     if !points.contains(&next) {
                         points.push(next);
                     }
@@ -96,21 +97,23 @@ impl<'a> ExactBox<'a> {
         near: Near<'_>,
         lowest: f64,
     ) -> Result<LeastOfBox, NoLeast> {
-        let (from, to) = self.amplitude;
+        let RealInterval { lower: from, upper: to } = self.amplitude;
         let points = self.neighbourhood(near);
         // Runs from afar may need much more than the local threshold.
         let upper = match self.start {
-            DesignStart::Local => (near.amplitude.max(lowest) * WINDOW.1).min(to),
+            DesignStart::Local => (near.amplitude.max(lowest) * WINDOW.upper).min(to),
             DesignStart::Rest | DesignStart::Squeal => to,
         };
-        let least = |points: Vec<Vec<f64>>, (lower, upper): (f64, f64), near: Option<f64>| {
-            let quiet = |point: &[f64]| exact(point, (lower, upper));
+        let least = |points: Vec<Vec<f64>>, range: RealInterval, near: Option<f64>| {
+            let lower = range.lower;
+            let quiet = |point: &[f64]| exact(point, range);
             // Averaging has shown that smaller amplitudes are loud somewhere: the search begins at the loud sets that end near its
             // amplitude.
             let mut begin = lower;
             let known = judged(self.tasks, points, &quiet)?;
             for ((_, set), near) in known.iter().zip(near.into_iter().cycle()) {
-                let ends = set.intervals().iter().map(|(low, _)| *low).filter(|low| *low > lower);
+                let ends = set.intervals().iter().map(|quiet| quiet.lower);
+                let ends = ends.filter(|low| *low > lower);
                 let nearest = ends.min_by(|a, b| (a - near).abs().total_cmp(&(b - near).abs()));
                 begin = begin.max(nearest.map_or(lower, |end| end * (1.0 - BELOW)));
             }
@@ -121,14 +124,16 @@ impl<'a> ExactBox<'a> {
         };
         let lower = lowest.clamp(from, upper);
         let about = Some(near.amplitude.max(lower));
-        let found = match least(points.clone(), (lower, upper), about) {
+        let found = match least(points.clone(), RealInterval::new(lower, upper), about) {
             // The quiet amplitudes of the points do not meet in the window: they may beyond it.
-            Err(NoLeast::NeverQuiet { .. }) if upper < to => least(points, (lower, to), about)?,
+            Err(NoLeast::NeverQuiet { .. }) if upper < to => {
+                least(points, RealInterval::new(lower, to), about)?
+            }
             found => found?,
         };
         // By exact thresholds nothing is loud near the amplitude of averaging: the whole range is searched, and the whole box.
         if found.worst.is_none() && lower > from {
-            return least(box_points(self.over), (from, upper), None);
+            return least(box_points(self.over), RealInterval::new(from, upper), None);
         }
         Ok(found)
     }

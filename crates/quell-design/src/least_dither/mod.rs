@@ -49,6 +49,7 @@ pub use worst_point::NoLeast;
 use crate::NoAnswer;
 use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};
 use crate::tasks::Tasks;
+use quell_numerics::interval::RealInterval;
 
 /// Share of the least amplitude by which the verified dither exceeds it, where the range of amplitudes does not end before.
 pub const MARGIN: f64 = 1e-3;
@@ -223,7 +224,7 @@ pub trait Plant {
     fn averaged(
         &self,
         at: OperatingPoint<'_>,
-        range: (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer>;
 
     /// The least amplitude that is quiet by averaging at a finite frequency ratio.
@@ -236,8 +237,11 @@ pub trait Plant {
     ///
     /// # Errors
     /// Why there is no answer.
-    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64))
-    -> Result<QuietAmplitudes, NoAnswer>;
+    fn exact(
+        &self,
+        at: OperatingPoint<'_>,
+        range: RealInterval,
+    ) -> Result<QuietAmplitudes, NoAnswer>;
 
     /// The exact verdict about one amplitude.
     ///
@@ -323,7 +327,7 @@ pub trait Plant {
     /// Why they are unknown.
     fn special_points(
         &self,
-        ranges: &[(f64, f64)],
+        ranges: &[RealInterval],
         others: &[f64],
         largest: f64,
     ) -> Result<Vec<Vec<f64>>, NoAnswer> {
@@ -337,7 +341,7 @@ pub trait Plant {
     /// Why they are unknown.
     fn loud_points(
         &self,
-        ranges: &[(f64, f64)],
+        ranges: &[RealInterval],
         others: &[f64],
         amplitude: f64,
     ) -> Result<Vec<Vec<f64>>, NoAnswer> {
@@ -354,11 +358,11 @@ pub struct DesignProblem<'a> {
     /// What is to be small.
     pub objective: DesignObjective,
     /// Smallest and largest amplitude.
-    pub amplitude: (f64, f64),
+    pub amplitude: RealInterval,
     /// Ranges of the other design variables.
-    pub others: &'a [(f64, f64)],
+    pub others: &'a [RealInterval],
     /// The box of operating points.
-    pub over: &'a [(f64, f64)],
+    pub over: &'a [RealInterval],
     /// Limits.
     pub limits: &'a [(LimitedQuantity, f64)],
     /// The actuator, whose limits are among them.
@@ -374,7 +378,7 @@ impl DesignProblem<'_> {
     fn largest_amplitude(&self) -> f64 {
         let limits =
             self.limits.iter().filter(|(quantity, _)| *quantity == LimitedQuantity::Amplitude);
-        limits.fold(self.amplitude.1, |largest, (_, limit)| largest.min(*limit))
+        limits.fold(self.amplitude.upper, |largest, (_, limit)| largest.min(*limit))
     }
 
     /// The amplitude at which a least one is verified: [`MARGIN`] above it, but not above the largest that is allowed.

@@ -1,6 +1,7 @@
 //! Amplitudes of a dither at which a structure is quiet.
 
 use crate::{AveragingEnds, NoAnswer};
+use quell_numerics::interval::RealInterval;
 
 /// An amplitude at which averaged sliding changes.
 #[derive(Clone, Copy, Debug)]
@@ -15,46 +16,43 @@ pub(super) struct AveragedChange {
 /// Amplitudes at which a structure is quiet: disjoint intervals in ascending order, within the range that was searched.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuietAmplitudes {
-    intervals: Vec<(f64, f64)>,
+    intervals: Vec<RealInterval>,
 }
 
 impl QuietAmplitudes {
     /// Of intervals in ascending order without common points.
-    pub(super) fn of_intervals(intervals: Vec<(f64, f64)>) -> Self {
+    pub(super) fn of_intervals(intervals: Vec<RealInterval>) -> Self {
         Self { intervals }
     }
 
     /// From the verdict at the lower end of a range and the changes of the verdict in it, in ascending order: (amplitude, whether
     /// larger amplitudes are quiet).
     pub fn of_changes(
-        (from, to): (f64, f64),
+        range: RealInterval,
         quiet_at_first: bool,
         changes: impl IntoIterator<Item = (f64, bool)>,
     ) -> Self {
         let mut intervals = Vec::new();
-        let mut begin = quiet_at_first.then_some(from);
+        let mut begin = quiet_at_first.then_some(range.lower);
         for (at, becomes_quiet) in changes {
             match (begin, becomes_quiet) {
                 (None, true) => begin = Some(at),
                 (Some(since), false) => {
-                    intervals.push((since, at));
+                    intervals.push(RealInterval::new(since, at));
                     begin = None;
                 }
                 (None, false) | (Some(_), true) => {}
             }
         }
-        intervals.extend(begin.map(|since| (since, to)));
-        intervals.retain(|(low, high)| *high >= from && *low <= to);
-        for (low, high) in &mut intervals {
-            (*low, *high) = (low.max(from), high.min(to));
-        }
-        Self { intervals }
+        intervals.extend(begin.map(|since| RealInterval::new(since, range.upper)));
+        let inside = intervals.into_iter().filter_map(|interval| interval.intersection(range));
+        Self { intervals: inside.collect() }
     }
 
     /// The part in a range of the amplitudes that are quiet by averaging. Beyond the first change at which averaging does not describe
     /// the contacts, nothing is quiet.
     pub(super) fn by_averaging(
-        (from, to): (f64, f64),
+        range: RealInterval,
         quiet_without: bool,
         changes: &[AveragedChange],
     ) -> Self {
@@ -62,11 +60,12 @@ impl QuietAmplitudes {
         let end = end.map(|change| (change.amplitude, false));
         let valid = changes.iter().filter(|change| change.fails.is_none());
         let valid = valid.map(|change| (change.amplitude, change.becomes_quiet));
-        let whole = Self::of_changes((0.0, to), quiet_without, valid.chain(end));
-        let inside =
-            whole.intervals().iter().flat_map(|(low, high)| [(*low, true), (*high, false)]);
-        let inside = inside.filter(|(at, quiet)| *quiet || *at < to);
-        Self::of_changes((from, to), false, inside)
+        let from_zero = RealInterval::new(0.0, range.upper);
+        let whole = Self::of_changes(from_zero, quiet_without, valid.chain(end));
+        let whole = whole.intervals.into_iter();
+        let inside = whole.flat_map(|quiet| [(quiet.lower, true), (quiet.upper, false)]);
+        let inside = inside.filter(|(at, quiet)| *quiet || *at < range.upper);
+        Self::of_changes(range, false, inside)
     }
 
     /// The first range of amplitudes that are quiet by averaging, up to the next change or without bound.
@@ -76,8 +75,9 @@ impl QuietAmplitudes {
     pub(super) fn first_by_averaging(
         quiet_without: bool,
         changes: &[AveragedChange],
-    ) -> Result<(f64, f64), NoAnswer> {
-        let every = Self::by_averaging((0.0, f64::INFINITY), quiet_without, changes);
+    ) -> Result<RealInterval, NoAnswer> {
+        let every =
+            Self::by_averaging(RealInterval::new(0.0, f64::INFINITY), quiet_without, changes);
         every.intervals.first().copied().ok_or_else(|| {
             NoAnswer::NeverQuietByAveraging(changes.iter().find_map(|change| change.fails))
         })
@@ -86,26 +86,26 @@ impl QuietAmplitudes {
     /// The same amplitudes in another unit, of which one is `factor` of the present one.
     #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
-        for (low, high) in &mut self.intervals {
-            (*low, *high) = (*low * factor, *high * factor);
+        for RealInterval { lower, upper } in &mut self.intervals {
+            (*lower, *upper) = (*lower * factor, *upper * factor);
         }
         self
     }
 
     /// The intervals.
-    pub fn intervals(&self) -> &[(f64, f64)] {
+    pub fn intervals(&self) -> &[RealInterval] {
         &self.intervals
     }
 
     /// Whether an amplitude is quiet.
     pub fn contains(&self, amplitude: f64) -> bool {
-        self.intervals.iter().any(|(low, high)| (*low..=*high).contains(&amplitude))
+        self.intervals.iter().any(|interval| interval.contains(amplitude))
     }
 
     /// The least quiet amplitude from one on.
     pub fn least_from(&self, amplitude: f64) -> Option<f64> {
-        let beyond = self.intervals.iter().find(|(_, high)| *high >= amplitude)?;
-        Some(beyond.0.max(amplitude))
+        let beyond = self.intervals.iter().find(|interval| interval.upper >= amplitude)?;
+        Some(beyond.lower.max(amplitude))
     }
 }
 
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn gaps_of_several_sets_are_stepped_over() {
-        let range = (0.0, 10.0);
+        let range = RealInterval::new(0.0, 10.0);
         // Quiet up to 1 and from 3 on; quiet up to 4 and from 5 on; quiet everywhere.
         let one = QuietAmplitudes::of_changes(range, true, [(1.0, false), (3.0, true)]);
         let two = QuietAmplitudes::of_changes(range, true, [(4.0, false), (5.0, true)]);
@@ -153,6 +153,6 @@ mod tests {
         let never = QuietAmplitudes::of_changes(range, true, [(4.0, false)]);
         assert_eq!(least_of_all(&[&two, &never].into_iter(), 4.5), Err(1));
         assert!(one.contains(1.0) && !one.contains(2.0) && one.contains(3.0));
-        assert_eq!(one.intervals(), [(0.0, 1.0), (3.0, 10.0)]);
+        assert_eq!(one.intervals(), [RealInterval::new(0.0, 1.0), RealInterval::new(3.0, 10.0)]);
     }
 }

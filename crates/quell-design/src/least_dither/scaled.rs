@@ -3,6 +3,7 @@
 use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes, ResponseSize};
 use crate::NoAnswer;
 use crate::actuator::{Actuator, ActuatorDemand};
+use quell_numerics::interval::RealInterval;
 
 /// A structure that is quiet where another one is, under a dither of `factor` times the amplitude that is judged: its price, its
 /// loss of friction and its response are those of that larger dither.
@@ -18,7 +19,7 @@ impl Plant for ScaledPlant<'_> {
     fn averaged(
         &self,
         at: OperatingPoint<'_>,
-        range: (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer> {
         self.plant.averaged(at, range)
     }
@@ -30,7 +31,7 @@ impl Plant for ScaledPlant<'_> {
     fn exact(
         &self,
         at: OperatingPoint<'_>,
-        range: (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer> {
         self.plant.exact(at, range)
     }
@@ -90,7 +91,7 @@ impl Plant for ScaledPlant<'_> {
 
     fn special_points(
         &self,
-        ranges: &[(f64, f64)],
+        ranges: &[RealInterval],
         others: &[f64],
         largest: f64,
     ) -> Result<Vec<Vec<f64>>, NoAnswer> {
@@ -99,7 +100,7 @@ impl Plant for ScaledPlant<'_> {
 
     fn loud_points(
         &self,
-        ranges: &[(f64, f64)],
+        ranges: &[RealInterval],
         others: &[f64],
         amplitude: f64,
     ) -> Result<Vec<Vec<f64>>, NoAnswer> {

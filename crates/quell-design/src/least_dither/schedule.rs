@@ -2,9 +2,10 @@
 
 use super::{DesignObjective, DesignProblem, OperatingPoint};
 use crate::NoAnswer;
+use quell_numerics::interval::RealInterval;
 
 /// Window about the amplitude of averaging in which the exact one is sought first, as factors.
-const WINDOW: (f64, f64) = (0.85, 1.15);
+const WINDOW: RealInterval = RealInterval::new(0.85, 1.15);
 
 /// The least dither at one operating point.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,12 +30,13 @@ impl DesignProblem<'_> {
 
     /// The exact least amplitude at a point: near that of averaging, below which a point is loud, or else in the whole range.
     fn least_at(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
-        let (from, to) = self.amplitude;
+        let RealInterval { lower: from, upper: to } = self.amplitude;
         let averaged = self.plant.averaged(at, self.amplitude)?.least_from(from);
         if let Some(averaged) = averaged {
-            let (low, high) = ((averaged * WINDOW.0).max(from), (averaged * WINDOW.1).min(to));
+            let (low, high) =
+                ((averaged * WINDOW.lower).max(from), (averaged * WINDOW.upper).min(to));
             if low < high
-                && let Ok(near) = self.plant.exact(at, (low, high))
+                && let Ok(near) = self.plant.exact(at, RealInterval::new(low, high))
                 && let Some(least) = near.least_from(low)
                 && (least > low || low == from)
             {

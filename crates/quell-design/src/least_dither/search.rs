@@ -3,6 +3,7 @@
 //! A grid over these variables (equal ratios where a range is positive) finds the local minima of the objective among the points that
 //! keep every limit; the best of them are refined by a pattern search that stays on the allowed side of the limits.
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
@@ -128,10 +129,10 @@ impl DesignPoint {
 }
 
 /// A grid over ranges, with `counts[d]` points along each of d coordinates (two beyond the list): the last coordinate varies fastest.
-pub(super) fn grid(ranges: &[(f64, f64)], counts: [usize; 4], in_ratios: bool) -> Vec<Vec<f64>> {
+pub(super) fn grid(ranges: &[RealInterval], counts: [usize; 4], in_ratios: bool) -> Vec<Vec<f64>> {
     let count = counts.get(ranges.len()).copied().unwrap_or(2);
     let mut points = vec![Vec::new()];
-    for (low, high) in ranges {
+    for RealInterval { lower: low, upper: high } in ranges {
         let value = |k: usize| {
             let share = k as f64 / (count - 1) as f64;
             match k {
@@ -154,7 +155,7 @@ pub(super) fn grid(ranges: &[(f64, f64)], counts: [usize; 4], in_ratios: bool) -
 }
 
 /// Points of a box at which every answer is judged.
-pub(super) fn box_points(over: &[(f64, f64)]) -> Vec<Vec<f64>> {
+pub(super) fn box_points(over: &[RealInterval]) -> Vec<Vec<f64>> {
     grid(over, FINE, false)
 }
 
@@ -354,14 +355,14 @@ impl DesignProblem<'_> {
         others: &[f64],
         points: Vec<Vec<f64>>,
     ) -> Result<DesignPoint, NoLeast> {
-        let (from, to) = self.amplitude;
+        let RealInterval { lower: from, upper: to } = self.amplitude;
         let special = self.plant.special_points(self.over, others, to);
         let mut points = points;
         points.extend(special.map_err(|why| NoLeast::Failed { point: Vec::new(), why })?);
         let Self { over: ranges, tasks, .. } = *self;
         let search = BoxSearch { ranges, from, step: 0.0625, closeness: BOX_CLOSENESS, tasks };
         let quiet =
-            |point: &[f64]| self.plant.averaged(OperatingPoint { point, others }, (from, to));
+            |point: &[f64]| self.plant.averaged(OperatingPoint { point, others }, self.amplitude);
         Ok(self.priced(others, least_of_box(search, points, &quiet)?, Judged::ByAveraging))
     }
 
@@ -481,12 +482,13 @@ impl DesignProblem<'_> {
         let closeness = if self.judges_by_responses() { CLOSENESS_OF_RESPONSES } else { CLOSENESS };
         while step > closeness && !is_enough(&best) {
             let mut moved = false;
-            for (coordinate, (low, high)) in self.others.iter().enumerate() {
+            for (coordinate, RealInterval { lower, upper }) in self.others.iter().enumerate() {
                 for sign in [1.0, -1.0] {
                     let mut others = best.others.clone();
                     let value = others[coordinate];
-                    let size = if *low > 0.0 { value * libm::log(high / low) } else { high - low };
-                    others[coordinate] = (value + sign * step * size).clamp(*low, *high);
+                    let size =
+                        if *lower > 0.0 { value * libm::log(upper / lower) } else { upper - lower };
+                    others[coordinate] = (value + sign * step * size).clamp(*lower, *upper);
                     if others == best.others {
                         continue;
                     }
@@ -571,7 +573,8 @@ mod tests {
 
     #[test]
     fn grids_keep_both_ends() {
-        let points = grid(&[(2.0, 8.0), (0.0, 1.0)], [1, 2, 3, 2], true);
+        let points =
+            grid(&[RealInterval::new(2.0, 8.0), RealInterval::new(0.0, 1.0)], [1, 2, 3, 2], true);
         assert_eq!(points.len(), 9);
         assert_eq!(
             (points[0].as_slice(), points[8].as_slice()),

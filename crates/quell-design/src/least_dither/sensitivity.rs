@@ -11,6 +11,7 @@ use quell_dynamics::orbit::{
 };
 use quell_model::{RefusedNumbers, System};
 use quell_numerics::continuation::sensitivity::NoSensitivity;
+use quell_numerics::interval::RealInterval;
 
 /// Half the window in which the threshold is located again, relative to the amplitude.
 const WINDOW: f64 = 5e-3;
@@ -39,7 +40,7 @@ pub struct LeastAmplitude<'a> {
     /// The operating point that decides.
     pub point: &'a [f64],
     /// The box of operating points.
-    pub over: &'a [(f64, f64)],
+    pub over: &'a [RealInterval],
     /// Values of the numbers by which the amplitude is differentiated, none of them 0.
     pub numbers: &'a [f64],
 }
@@ -90,7 +91,7 @@ impl LeastAmplitude<'_> {
     /// [`NoLeastSensitivity`].
     pub fn sensitivity(&self) -> Result<LeastAmplitudeSensitivity, NoLeastSensitivity> {
         let inside = (0..self.point.len()).find(|place| {
-            let (low, high) = self.over[*place];
+            let RealInterval { lower: low, upper: high } = self.over[*place];
             self.point[*place] > low && self.point[*place] < high
         });
         let mut near = self.thresholds_at(self.point)?;
@@ -98,7 +99,7 @@ impl LeastAmplitude<'_> {
             let deciding = self.deciding(&near, WINDOW)?;
             return self.derivatives(self.point, &near[deciding], None);
         };
-        let (low, high) = self.over[place];
+        let RealInterval { lower: low, upper: high } = self.over[place];
         for aside in [-ASIDE, ASIDE] {
             let mut point = self.point.to_vec();
             point[place] = (point[place] + aside * (high - low)).clamp(low, high);
@@ -117,8 +118,9 @@ impl LeastAmplitude<'_> {
     /// The thresholds near the amplitude at an operating point.
     fn thresholds_at(&self, point: &[f64]) -> Result<Vec<Threshold>, NoLeastSensitivity> {
         let at = |values: &[f64]| (self.at)(values[0], point, self.numbers);
-        let window = (self.amplitude * (1.0 - WINDOW), self.amplitude * (1.0 + WINDOW));
-        let found = branch_thresholds(&at, window, STEPS, None);
+        let window =
+            RealInterval::new(self.amplitude * (1.0 - WINDOW), self.amplitude * (1.0 + WINDOW));
+        let found = branch_thresholds(&at, window.lower, window.upper, STEPS, None);
         Ok(found.map_err(NoLeastSensitivity::NoOrbit)?.thresholds)
     }
 
@@ -141,7 +143,7 @@ impl LeastAmplitude<'_> {
         let mut parameters = vec![deciding.value];
         let mut sizes = vec![deciding.value];
         if let Some((place, _)) = meets {
-            let (low, high) = self.over[place];
+            let RealInterval { lower: low, upper: high } = self.over[place];
             parameters.push(point[place]);
             sizes.push(if point[place] == 0.0 { high - low } else { point[place].abs() });
         }

@@ -5,6 +5,7 @@
 //! at the points of a box ([`super::search::box_points`]), at the extremes of averaging between them and at the peaks of the
 //! multipliers. A point that fails divides the part, and the search goes on with the longest run that is left.
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, ascending_by};
 
 use super::between_points::Towards;
@@ -69,7 +70,7 @@ impl<'a> ServedPart<'a> {
     /// Why a search between points failed.
     pub(super) fn largest(
         mut self,
-        (low, high): (f64, f64),
+        RealInterval { lower: low, upper: high }: RealInterval,
         seeds: &[f64],
     ) -> Result<Option<CoveredBox>, NoAnswer> {
         let Tried { amplitude, others } = self.tried;
@@ -167,7 +168,7 @@ impl<'a> ServedPart<'a> {
     fn has_every_point_inside(&mut self, (first, last): (usize, usize)) -> bool {
         let Tried { amplitude, others } = self.tried;
         let (low, high) = (self.judged[first].0, self.judged[last].0);
-        let fine = box_points(&[(low, high)]).into_iter().flatten();
+        let fine = box_points(&[RealInterval::new(low, high)]).into_iter().flatten();
         let inside = self.judged[first..=last].iter().map(|(point, _)| *point);
         let mut points: Vec<f64> = fine.chain(inside).collect();
         ascending(&mut points);
@@ -211,7 +212,7 @@ impl<'a> ServedPart<'a> {
         let below: Vec<_> = self.judged[..first].iter().rev().collect();
         let gaps = self.judged[first..=last].windows(2).map(|pair| pair[1].0 - pair[0].0);
         CoveredBox {
-            ends: (self.judged[first].0, self.judged[last].0),
+            ends: RealInterval::new(self.judged[first].0, self.judged[last].0),
             amplitude: self.tried.amplitude,
             others: self.tried.others.clone(),
             points: last - first + 1,

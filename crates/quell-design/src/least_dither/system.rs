@@ -13,6 +13,7 @@ use quell_linear::input_cost::input_cost;
 use quell_linear::linearised::Linearised;
 use quell_model::profile::Wave;
 use quell_model::{RefusedNumbers, System};
+use quell_numerics::interval::RealInterval;
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
@@ -125,11 +126,11 @@ impl SystemPlant<'_> {
     fn by_runs(
         &self,
         at: OperatingPoint<'_>,
-        (from, to): (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer> {
-        let stable = self.by_multipliers(at, (from, to))?;
-        let found = self.about_runs(at, to, |run| {
-            let within = TRIED_WITHIN * (to - from);
+        let stable = self.by_multipliers(at, range)?;
+        let found = self.about_runs(at, range.upper, |run| {
+            let within = TRIED_WITHIN * range.width();
             let each = stable.intervals().iter().map(|interval| in_step(run, *interval, within));
             Ok(each.collect::<Result<Vec<_>, NoAnswer>>()?.concat())
         })?;
@@ -140,10 +141,11 @@ impl SystemPlant<'_> {
     fn by_multipliers(
         &self,
         at: OperatingPoint<'_>,
-        range: (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer> {
-        let system = self.over_amplitude(at, range.1);
-        let found = amplitude_branch(&system, (range.0, range.1 * BEYOND), STEPS)?;
+        let system = self.over_amplitude(at, range.upper);
+        let beyond = RealInterval::new(range.lower, range.upper * BEYOND);
+        let found = amplitude_branch(&system, beyond, STEPS)?;
         Ok(found.quiet_within(range))
     }
 
@@ -157,9 +159,9 @@ impl SystemPlant<'_> {
 /// `within`. At the ends of the interval itself no run settles: the margin of a verified dither away from them it must.
 fn in_step(
     run: &VariedRun<'_>,
-    (low, high): (f64, f64),
+    RealInterval { lower: low, upper: high }: RealInterval,
     within: f64,
-) -> Result<Vec<(f64, f64)>, NoAnswer> {
+) -> Result<Vec<RealInterval>, NoAnswer> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -168,8 +170,10 @@ fn in_step(
     let steps = (((high - low) / within).ceil() as u32).max(LEAST_TRIED);
     let begin = (low * (1.0 + MARGIN)).max(low + MARGIN * within).min(0.5 * (low + high));
     let end = high - MARGIN * (high - begin) / f64::from(steps);
-    let (first, changes) = quiet_changes(run, (begin, end), steps)?;
-    Ok(QuietAmplitudes::of_changes((low, high), first, changes).intervals().to_vec())
+    let (first, changes) = quiet_changes(run, RealInterval::new(begin, end), steps)?;
+    Ok(QuietAmplitudes::of_changes(RealInterval::new(low, high), first, changes)
+        .intervals()
+        .to_vec())
 }
 
 /// Whether the run at the first of some equally spaced amplitudes ends quiet, and the changes: the end that has been seen to be quiet, and
@@ -179,7 +183,7 @@ fn in_step(
 /// Why the outcome of a run is unknown, where none is known to be quiet.
 pub(super) fn quiet_changes(
     run: &VariedRun<'_>,
-    range: (f64, f64),
+    range: RealInterval,
     steps: u32,
 ) -> Result<(bool, Vec<(f64, bool)>), NoAnswer> {
     let outcomes: Vec<(f64, RunOutcome)> =
@@ -213,10 +217,11 @@ pub(super) fn quiet_changes(
 /// [`NoOrbit`] if there is no base response at the least amplitude.
 pub fn amplitude_branch(
     at: &dyn Fn(f64) -> Result<System, RefusedNumbers>,
-    range: (f64, f64),
+    range: RealInterval,
     steps: u32,
 ) -> Result<AmplitudeBranch, NoOrbit> {
-    let found = branch_thresholds(&|values: &[f64]| at(values[0]), range, steps, None)?;
+    let found =
+        branch_thresholds(&|values: &[f64]| at(values[0]), range.lower, range.upper, steps, None)?;
     Ok(AmplitudeBranch::new(range, &found))
 }
 
@@ -227,7 +232,7 @@ pub fn amplitude_branch(
 pub fn averaged_quiet(
     system: &System,
     input: usize,
-    range: (f64, f64),
+    range: RealInterval,
 ) -> Result<QuietAmplitudes, AveragingError> {
     let (quiet_without, changes) = averaged_changes(system, input)?;
     Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
@@ -238,7 +243,7 @@ pub fn averaged_quiet(
 ///
 /// # Errors
 /// Why no amplitude is quiet.
-pub fn first_averaged(system: &System, input: usize) -> Result<(f64, f64), NoAnswer> {
+pub fn first_averaged(system: &System, input: usize) -> Result<RealInterval, NoAnswer> {
     let (quiet_without, changes) = averaged_changes(system, input)?;
     QuietAmplitudes::first_by_averaging(quiet_without, &changes)
 }
@@ -268,21 +273,21 @@ impl Plant for SystemPlant<'_> {
     fn averaged(
         &self,
         at: OperatingPoint<'_>,
-        range: (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer> {
-        let system = (self.at)(at, range.1)?;
+        let system = (self.at)(at, range.upper)?;
         Ok(averaged_quiet(&system, self.input, range)?)
     }
 
     fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, NoAnswer> {
         let system = (self.at)(at, 1.0)?;
-        Ok(first_averaged(&system, self.input)?.0)
+        Ok(first_averaged(&system, self.input)?.lower)
     }
 
     fn exact(
         &self,
         at: OperatingPoint<'_>,
-        range: (f64, f64),
+        range: RealInterval,
     ) -> Result<QuietAmplitudes, NoAnswer> {
         if self.start != DesignStart::Local {
             return self.by_runs(at, range);

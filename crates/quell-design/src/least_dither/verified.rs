@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use quell_numerics::interval::RealInterval;
+
 use super::between_points::Towards;
 use super::no_design::NoDesign;
 use super::search::{DesignPoint, grid};
@@ -82,7 +84,7 @@ impl DesignProblem<'_> {
         if self.start != DesignStart::Local {
             return Err(NoAnswer::BeyondLeast);
         }
-        let (_, to) = self.amplitude;
+        let to = self.amplitude.upper;
         let mut points = grid(self.over, [1, 2, 2, 2], false);
         points.extend(critical.worst.iter().chain(&critical.decisive).cloned());
         points.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
@@ -90,12 +92,12 @@ impl DesignProblem<'_> {
         let mut first: Option<f64> = None;
         let sets = answers(self.tasks, &points, |point| {
             let at = OperatingPoint { point, others: &critical.others };
-            self.plant.exact(at, (verified, to.max(verified)))
+            self.plant.exact(at, RealInterval::new(verified, to.max(verified)))
         });
         for quiet in sets {
             let quiet = quiet?;
-            let interval = quiet.intervals().iter().find(|(low, _)| *low <= verified);
-            let end = interval.map_or(verified, |(_, high)| *high);
+            let interval = quiet.intervals().iter().find(|interval| interval.lower <= verified);
+            let end = interval.map_or(verified, |interval| interval.upper);
             if end < to {
                 first = Some(first.map_or(end, |known: f64| known.min(end)));
             }

@@ -9,6 +9,7 @@
 use super::quiet::{QuietAmplitudes, least_of_all};
 use crate::NoAnswer;
 use crate::tasks::{Tasks, answers};
+use quell_numerics::interval::RealInterval;
 
 /// Loud sets that are climbed at most.
 const ROUNDS: usize = 24;
@@ -17,7 +18,7 @@ const ROUNDS: usize = 24;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxSearch<'a> {
     /// Both ends of every coordinate of the box.
-    pub(super) ranges: &'a [(f64, f64)],
+    pub(super) ranges: &'a [RealInterval],
     /// The amplitude from which a quiet one is sought.
     pub(super) from: f64,
     /// First step of the climb, as a share of each range.
@@ -128,9 +129,10 @@ fn climbed(
     let mut step = search.step;
     while step > search.closeness {
         let mut moved = false;
-        for (coordinate, (low, high)) in search.ranges.iter().enumerate() {
+        for (coordinate, RealInterval { lower, upper }) in search.ranges.iter().enumerate() {
             for sign in [1.0, -1.0] {
-                let value = (point[coordinate] + sign * step * (high - low)).clamp(*low, *high);
+                let value =
+                    (point[coordinate] + sign * step * (upper - lower)).clamp(*lower, *upper);
                 if value == point[coordinate] {
                     continue;
                 }
@@ -159,9 +161,9 @@ mod tests {
     use super::*;
     use crate::tasks::InTurn;
 
-    const RANGES: [(f64, f64); 1] = [(0.0, 1.0)];
+    const RANGES: [RealInterval; 1] = [RealInterval::new(0.0, 1.0)];
 
-    fn search(ranges: &[(f64, f64)]) -> BoxSearch<'_> {
+    fn search(ranges: &[RealInterval]) -> BoxSearch<'_> {
         BoxSearch { ranges, from: 0.0, step: 0.125, closeness: 1e-9, tasks: &InTurn }
     }
 
@@ -175,14 +177,14 @@ mod tests {
         let loud = |point: &[f64]| {
             let quiet = point[0] > 0.3;
             let top = (!quiet).then_some((1.0 + point[0], true));
-            Ok(QuietAmplitudes::of_changes((0.0, 5.0), quiet, top))
+            Ok(QuietAmplitudes::of_changes(RealInterval::new(0.0, 5.0), quiet, top))
         };
         let least = least_of_box(search(&RANGES), grid(8), &loud).expect("a least amplitude");
         assert!((least.amplitude - 1.3).abs() < 1e-7, "{least:?}");
         assert!((least.worst.expect("a point")[0] - 0.3).abs() < 1e-7);
         let smooth = |point: &[f64]| {
             let top = 2.0 - (point[0] - 0.61).powi(2);
-            Ok(QuietAmplitudes::of_changes((0.0, 5.0), false, [(top, true)]))
+            Ok(QuietAmplitudes::of_changes(RealInterval::new(0.0, 5.0), false, [(top, true)]))
         };
         let least = least_of_box(search(&RANGES), grid(8), &smooth).expect("a least amplitude");
         assert!((least.amplitude - 2.0).abs() < 1e-12, "{least:?}");
@@ -192,7 +194,7 @@ mod tests {
     fn a_point_that_is_never_quiet_is_named() {
         let never = |point: &[f64]| {
             let quiet = point[0] < 0.9;
-            Ok(QuietAmplitudes::of_changes((0.0, 5.0), quiet, []))
+            Ok(QuietAmplitudes::of_changes(RealInterval::new(0.0, 5.0), quiet, []))
         };
         let why = least_of_box(search(&RANGES), grid(8), &never).expect_err("not quiet at 1");
         assert_eq!(why, NoLeast::NeverQuiet { point: vec![1.0] });

@@ -2,6 +2,8 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use quell_numerics::interval::RealInterval;
+
 /// A distribution of one parameter, in the unit of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Distribution {
@@ -40,9 +42,9 @@ impl Distribution {
     }
 
     /// The values beyond which it has no probability; `None` where it has no such ends.
-    pub fn ends(self) -> Option<(f64, f64)> {
+    pub fn ends(self) -> Option<RealInterval> {
         match self {
-            Self::Uniform { from, to } => Some((from, to)),
+            Self::Uniform { from, to } => Some(RealInterval::new(from, to)),
             Self::Normal { .. } | Self::Lognormal { .. } => None,
         }
     }

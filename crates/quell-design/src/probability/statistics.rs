@@ -1,13 +1,15 @@
 //! What a sample says about a probability and about quantiles.
 
+use quell_numerics::interval::RealInterval;
+
 /// The 97.5 % quantile of the standard normal distribution: two-sided intervals of 95 %.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// The 95 % interval of a probability of which `count` of `total` cases are known (Wilson 1927), inside [0, 1]; all of [0, 1] without
 /// a case.
-pub fn binomial_interval(count: usize, total: usize) -> (f64, f64) {
+pub fn binomial_interval(count: usize, total: usize) -> RealInterval {
     if total == 0 {
-        return (0.0, 1.0);
+        return RealInterval::new(0.0, 1.0);
     }
     let (total, share) = (total as f64, count as f64 / total as f64);
     let square = NORMAL_QUANTILE * NORMAL_QUANTILE;
@@ -16,7 +18,7 @@ pub fn binomial_interval(count: usize, total: usize) -> (f64, f64) {
         * ((share * (1.0 - share) + 0.25 * square / total) / total).sqrt();
     let low = if count == 0 { 0.0 } else { (middle - half).max(0.0) };
     let high = if share >= 1.0 { 1.0 } else { (middle + half).min(1.0) };
-    (low, high)
+    RealInterval::new(low, high)
 }
 
 /// A quantile of ascending values, linear between them; `None` of no values.
@@ -38,16 +40,16 @@ mod tests {
     #[test]
     fn ends_of_the_interval_are_a_normal_quantile_away() {
         for (count, total) in [(3, 10), (686, 1000), (1, 50), (99_000, 100_000)] {
-            let (low, high) = binomial_interval(count, total);
+            let RealInterval { lower: low, upper: high } = binomial_interval(count, total);
             let share = count as f64 / total as f64;
             for end in [low, high] {
                 let away = (share - end).powi(2) * total as f64 / (end * (1.0 - end));
                 assert!((away.sqrt() - NORMAL_QUANTILE).abs() < 1e-9, "{count} {total} {end}");
             }
         }
-        assert_eq!(binomial_interval(0, 100).0, 0.0);
-        assert_eq!(binomial_interval(100, 100).1, 1.0);
-        assert_eq!(binomial_interval(0, 0), (0.0, 1.0));
+        assert_eq!(binomial_interval(0, 100).lower, 0.0);
+        assert_eq!(binomial_interval(100, 100).upper, 1.0);
+        assert_eq!(binomial_interval(0, 0), RealInterval::new(0.0, 1.0));
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::fmt;
 use quell_linear::pure_slip::period;
 use quell_model::digits::digits;
 use quell_model::{OneMass, System};
+use quell_numerics::interval::RealInterval;
 
 use super::measure::{Attractor, AttractorKind, measure};
 use super::settings::AttractorSettings;
@@ -251,7 +252,7 @@ fn of_one_mass(
         rotation: found.rotation,
         slow: found.rotation.map(|rotation| rate(rotation.turns_per_period)),
         state: at,
-        extremes: (ends[0].min(ends[1]), ends[0].max(ends[1])),
+        extremes: RealInterval::new(ends[0].min(ends[1]), ends[0].max(ends[1])),
         stick: vec![found.stick_fraction],
         ..seen
     })

@@ -5,6 +5,7 @@
 //! of attraction, the interval is halved.
 
 use quell_model::{RefusedNumbers, System};
+use quell_numerics::interval::RealInterval;
 
 use super::outcome::{NoOutcome, NoStart, RunOutcome, outcome_of_run};
 use crate::orbit::{NoOrbit, OrbitVerdict, ThresholdKind, branch_thresholds, ramped_motion};
@@ -97,7 +98,7 @@ impl VariedRun<'_> {
             (_, RunOutcome::Quiet(state, periods)) => (high, low, state, *periods),
             _ => return None,
         };
-        let found = branch_thresholds(&self.at, (from, to), STEPS, Some((state, periods))).ok()?;
+        let found = branch_thresholds(&self.at, from, to, STEPS, Some((state, periods))).ok()?;
         let upwards = to > from;
         let threshold = found.thresholds.iter().find(|threshold| {
             let (near, far) = if upwards {
@@ -141,7 +142,10 @@ impl VariedRun<'_> {
 }
 
 /// The values at equal steps of a window, both ends included.
-pub fn values_tried((from, to): (f64, f64), steps: u32) -> impl Iterator<Item = f64> {
+pub fn values_tried(
+    RealInterval { lower: from, upper: to }: RealInterval,
+    steps: u32,
+) -> impl Iterator<Item = f64> {
     (0..=steps).map(move |k| {
         if k == steps { to } else { from + (to - from) * f64::from(k) / f64::from(steps) }
     })

@@ -1,6 +1,7 @@
 //! The motion on which a run of any system ends.
 
 use quell_model::System;
+use quell_numerics::interval::RealInterval;
 
 use super::rotation::Rotation;
 use crate::orbit::{CycleSamples, nearest_distance};
@@ -59,7 +60,7 @@ pub struct SystemAttractor {
     /// Observed displacement at whole periods.
     pub section: Vec<f64>,
     /// Least and largest observed displacement.
-    pub extremes: (f64, f64),
+    pub extremes: RealInterval,
     /// Share of the time that each contact sticks.
     pub stick: Vec<f64>,
     /// Largest slip speed of each contact.
@@ -87,8 +88,8 @@ impl SystemAttractor {
         let observed =
             |state: &Vec<f64>| -> f64 { row.iter().zip(state).map(|(w, x)| w * x).sum() };
         let section: Vec<f64> = states.iter().map(observed).collect();
-        let [(least, most), _] = samples.extremes();
-        let bounds = section.iter().fold((least, most), |(a, b), x| (a.min(*x), b.max(*x)));
+        let [range, _] = samples.extremes();
+        let bounds = section.iter().fold(range, |range, x| range.hull(RealInterval::point(*x)));
         let means = samples.means().into_iter();
         let stick: Vec<f64> = means.map(|means| means.stick_fraction).collect();
         let largest_slip = (0..stick.len()).map(|contact| samples.largest_slip(contact)).collect();
@@ -112,7 +113,7 @@ impl SystemAttractor {
 
     /// Peak-to-peak of the observed displacement.
     pub fn size(&self) -> f64 {
-        self.extremes.1 - self.extremes.0
+        self.extremes.width()
     }
 
     /// Whether it is steady sliding: without dither and at rest, while every contact slips.

@@ -10,6 +10,7 @@
 
 use std::fmt;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::descending_by;
 
 use super::variation::MotionVariation;
@@ -51,10 +52,12 @@ impl LyapunovExponent {
     }
 
     /// Its interval of three standard errors to each side.
-    fn interval(&self) -> (f64, f64) {
+    fn interval(&self) -> RealInterval {
         match self {
-            Self::Rate { value, error } => (value - ERRORS * error, value + ERRORS * error),
-            Self::Erased => (f64::NEG_INFINITY, f64::NEG_INFINITY),
+            Self::Rate { value, error } => {
+                RealInterval::new(value - ERRORS * error, value + ERRORS * error)
+            }
+            Self::Erased => RealInterval::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
         }
     }
 }
@@ -124,7 +127,7 @@ impl LyapunovExponents {
         let Some(deciding) = self.deciding(moves_freely) else {
             return LyapunovVerdict::Unknown;
         };
-        let (low, high) = deciding.interval();
+        let RealInterval { lower: low, upper: high } = deciding.interval();
         if low > 0.0 {
             LyapunovVerdict::Irregular
         } else if high < 0.0 {
@@ -140,7 +143,9 @@ impl LyapunovExponents {
     /// `None` if the errors leave k open, or if no sum is negative: some exponents were not computed, or volumes grow.
     pub fn kaplan_yorke_dimension(&self, moves_freely: bool) -> Option<f64> {
         let (mut low, mut high) = (0.0, 0.0);
-        for (index, (least, most)) in self.known(moves_freely).into_iter().enumerate() {
+        for (index, RealInterval { lower: least, upper: most }) in
+            self.known(moves_freely).into_iter().enumerate()
+        {
             let (next_low, next_high) = (low + least, high + most);
             if next_high < 0.0 {
                 let sum = 0.5 * (low + high);
@@ -175,10 +180,10 @@ impl LyapunovExponents {
     }
 
     /// The intervals of the exponents; that of a shift in time is 0.
-    fn known(&self, moves_freely: bool) -> Vec<(f64, f64)> {
+    fn known(&self, moves_freely: bool) -> Vec<RealInterval> {
         let shift = self.shift_in_time(moves_freely);
         let intervals = self.exponents.iter().enumerate().map(|(index, exponent)| {
-            if Some(index) == shift { (0.0, 0.0) } else { exponent.interval() }
+            if Some(index) == shift { RealInterval::point(0.0) } else { exponent.interval() }
         });
         intervals.collect()
     }

@@ -76,6 +76,7 @@ mod variation;
 use std::sync::OnceLock;
 
 use quell_model::{OneMass, Profile, System};
+use quell_numerics::interval::RealInterval;
 
 use engine::MotionRun;
 use equations::MotionEquations;
@@ -121,7 +122,7 @@ enum MotionEngine {
 
 /// Whether a surface has no velocity about which it moves; of one over knots, whether it ever stands still.
 fn may_rest(surface: &Profile) -> bool {
-    let (least, most) = surface.bounds();
+    let RealInterval { lower: least, upper: most } = surface.bounds();
     match surface.knots() {
         Some(_) => least <= 0.0 && most >= 0.0,
         None => surface.mean() == 0.0,

@@ -8,6 +8,7 @@
 //! Between its breaks Ω is a cubic and a sum of sines, whose coefficients are exact, so that the series is that of the solution.
 
 use quell_model::system::{Mechanical, SpeedDependence};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::lane::{Lane, partial_product};
 use quell_numerics::matrix::Matrix;
 
@@ -64,7 +65,7 @@ impl SpeedMatrices {
         linear.extend(entries(&solve(&given.damping)?, n));
         let square = entries(&solve(&given.square)?, 0);
         let rate = entries(&solve(&given.rate)?, 0);
-        let (least, most) = given.speed.bounds();
+        let RealInterval { lower: least, upper: most } = given.speed.bounds();
         let largest_speed = least.abs().max(most.abs());
         Ok(Self { terms: [linear, square, rate], offset: n, largest_speed })
     }

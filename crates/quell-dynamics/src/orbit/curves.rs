@@ -12,6 +12,7 @@ use quell_numerics::continuation::criticality::NoFirstLyapunov;
 use quell_numerics::continuation::curve::{BifurcationCurvePoint, Trace, trace};
 use quell_numerics::continuation::threshold::BifurcationKind;
 use quell_numerics::continuation::{Image, PeriodMap};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::polar::modulus;
 
 use super::family::{BorderGuard, MotionSignature, NoImage, OrbitFamily, Shot, SystemAt, shot_of};
@@ -48,9 +49,9 @@ pub struct ThresholdPlane<'a> {
     /// The system at both parameters.
     pub at: &'a SystemAt<'a>,
     /// Window of the first parameter.
-    pub window: (f64, f64),
+    pub window: RealInterval,
     /// Window of the second parameter.
-    pub between: (f64, f64),
+    pub between: RealInterval,
     /// Minimum number of points of a curve across either window.
     pub points: u32,
 }
@@ -60,7 +61,7 @@ pub struct ThresholdPlane<'a> {
 /// # Errors
 /// The last line, if no line has a base response to start from.
 pub fn threshold_curves(plane: &ThresholdPlane<'_>, lines: u32) -> Result<CurvesFound, OpenLine> {
-    let (window, (first, last)) = (plane.window, plane.between);
+    let (window, RealInterval { lower: first, upper: last }) = (plane.window, plane.between);
     let lines = lines.max(1);
     let mut found: Vec<ThresholdCurve> = Vec::new();
     let mut open: Vec<OpenLine> = Vec::new();
@@ -70,7 +71,7 @@ pub fn threshold_curves(plane: &ThresholdPlane<'_>, lines: u32) -> Result<Curves
         let along = first + (last - first) * (f64::from(line) + 0.5) / f64::from(lines);
         let mut leave_open = |why| open.push(OpenLine { along, why });
         let on_line = |values: &[f64]| (plane.at)(&[values[0], along]);
-        let searched = match branch_thresholds(&on_line, window, STEPS, None) {
+        let searched = match branch_thresholds(&on_line, window.lower, window.upper, STEPS, None) {
             Ok(searched) => searched,
             Err(why) => {
                 leave_open(Open::Begin(why));
@@ -185,7 +186,7 @@ impl ThresholdPlane<'_> {
             let first_lyapunov = Err(NoFirstLyapunov::NotCritical);
             return PointForm { first_lyapunov, fold: None };
         };
-        let width = (self.window.1 - self.window.0).abs();
+        let width = self.window.width().abs();
         PointForm {
             first_lyapunov: criticality(&family, kind, &point.state, &at),
             fold: fold_of(&family, kind, &point.state, &at, width),

@@ -1,6 +1,7 @@
 //! One period of a periodic motion of a system: samples, exact extremes, and the means of its contacts.
 
 use quell_model::System;
+use quell_numerics::interval::RealInterval;
 
 use crate::motion::{
     ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionObserver,
@@ -89,8 +90,8 @@ impl CycleSamples {
     }
 
     /// Exact least and largest value of the observed displacement, and of its rate.
-    pub fn extremes(&self) -> [(f64, f64); 2] {
-        self.ranges.map(|range| (range.least, range.most))
+    pub fn extremes(&self) -> [RealInterval; 2] {
+        self.ranges.map(|range| RealInterval::new(range.least, range.most))
     }
 }
 
@@ -155,12 +156,12 @@ mod tests {
         let belt = Belt::new(0.0, 1.0, 10.0, law, Vec::new()).expect("valid");
         let extremes =
             |until| CycleSamples::over(&belt.system(), &[1.0], &[1.0, 0.0], until).extremes();
-        for (low, high) in extremes(7.0) {
+        for RealInterval { lower: low, upper: high } in extremes(7.0) {
             assert!((low + 1.0).abs() < 1e-11 && (high - 1.0).abs() < 1e-11, "{low} {high}");
         }
         // Over a part of the period the ends count, and the extremes between them.
         let [displacement, velocity] = extremes(2.0);
-        assert!((displacement.0 - 2.0_f64.cos()).abs() < 1e-11);
-        assert!((velocity.0 + 1.0).abs() < 1e-11 && velocity.1.abs() < 1e-11);
+        assert!((displacement.lower - 2.0_f64.cos()).abs() < 1e-11);
+        assert!((velocity.lower + 1.0).abs() < 1e-11 && velocity.upper.abs() < 1e-11);
     }
 }

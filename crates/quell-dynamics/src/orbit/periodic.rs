@@ -292,7 +292,7 @@ pub fn base_response(system: &System, steps: u32) -> Result<Orbit, NoOrbit> {
     let motion = Motion::new(system).map_err(NoOrbit::Immobile)?;
     let period = period_of(&motion, 1)?;
     let sliding = sliding_state(system).map_err(NoOrbit::NoSliding)?;
-    let grown = |to: f64| followed(&motion, &sliding, (0.0, to), steps);
+    let grown = |to: f64| followed(&motion, &sliding, 0.0, to, steps);
     let (why, changes_at) = match grown(1.0) {
         Ok(Ok(state)) => return orbit_at(&motion, &state, period, false),
         Ok(Err(lost)) => lost,
@@ -308,7 +308,7 @@ pub fn base_response(system: &System, steps: u32) -> Result<Orbit, NoOrbit> {
     if changes_at < 1.0
         && beyond > 1.0
         && let Ok(Ok(farther)) = grown(beyond)
-        && let Ok(Ok(state)) = followed(&motion, &farther, (beyond, 1.0), steps)
+        && let Ok(Ok(state)) = followed(&motion, &farther, beyond, 1.0, steps)
     {
         return orbit_at(&motion, &state, period, false);
     }
@@ -320,7 +320,8 @@ pub fn base_response(system: &System, steps: u32) -> Result<Orbit, NoOrbit> {
 fn followed(
     motion: &Motion<'_>,
     first: &[f64],
-    (from, to): (f64, f64),
+    from: f64,
+    to: f64,
     steps: u32,
 ) -> Result<Result<Vec<f64>, (NoOrbit, f64)>, NoOrbit> {
     let at = |factor: &[f64]| Ok(motion.system().with_amplitudes_scaled(factor[0]));

@@ -12,6 +12,7 @@ use quell_numerics::continuation::curve::{
 };
 use quell_numerics::continuation::fold::FoldCoefficient;
 use quell_numerics::continuation::spectral_radius;
+use quell_numerics::interval::RealInterval;
 
 use super::NoOrbit;
 use super::threshold_kind::ThresholdKind;
@@ -154,8 +155,8 @@ impl fmt::Display for OpenLine {
 impl std::error::Error for OpenLine {}
 
 /// Whether a curve already passes through a threshold on a line.
-pub(super) fn passes(curve: &ThresholdCurve, value: f64, along: f64, window: (f64, f64)) -> bool {
-    let width = window.1 - window.0;
+pub(super) fn passes(curve: &ThresholdCurve, value: f64, along: f64, window: RealInterval) -> bool {
+    let width = window.width();
     curve.points.windows(2).any(|pair| {
         let (a, b) = (&pair[0], &pair[1]);
         let share = (along - a.along) / (b.along - a.along);

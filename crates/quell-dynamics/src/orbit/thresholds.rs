@@ -107,14 +107,15 @@ pub struct BranchThresholds {
 /// [`NoOrbit`] if there is no such response at the first value.
 pub fn branch_thresholds(
     at: &SystemAt<'_>,
-    (from, to): (f64, f64),
+    from: f64,
+    to: f64,
     steps: u32,
     near: Option<(&[f64], u32)>,
 ) -> Result<BranchThresholds, NoOrbit> {
     let invalid = |why| NoOrbit::NoImage(NoImage::Invalid(why));
     let first = at(&[from]).map_err(invalid)?;
     at(&[to]).map_err(invalid)?;
-    if period_jumps(at, &first, (from, to)) {
+    if period_jumps(at, &first, from, to) {
         return Err(NoOrbit::NoImage(NoImage::PeriodJumps));
     }
     let (state, periods) = match near {
@@ -172,7 +173,7 @@ pub fn branch_thresholds(
 }
 
 /// Whether the period of the dithers has no derivative in the parameter: that of two frequencies, one of which varies.
-fn period_jumps(at: &SystemAt<'_>, first: &System, (from, to): (f64, f64)) -> bool {
+fn period_jumps(at: &SystemAt<'_>, first: &System, from: f64, to: f64) -> bool {
     let step = (PERIOD_STEP * from.abs()).copysign(to - from);
     let (Some(here), Ok(next)) = (period(first), at(&[from + step])) else { return false };
     period(&next).is_none_or(|next| (next / here - 1.0).abs() > JUMP)

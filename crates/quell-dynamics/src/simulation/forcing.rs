@@ -11,6 +11,7 @@ use quell_model::profile::{KnotPiece, Knots, Profile};
 use quell_model::waveform::Piece;
 use quell_model::{Belt, Direction, Dither, Waveform};
 use quell_numerics::elementary::sin_cos_of_phase;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::lane::Lane;
 
 use super::clock::{Clock, until};
@@ -325,7 +326,7 @@ impl Forcing {
 
 /// Largest magnitude of a course.
 fn largest(knots: &Knots) -> f64 {
-    let (least, most) = knots.range();
+    let RealInterval { lower: least, upper: most } = knots.range();
     least.abs().max(most.abs())
 }
 

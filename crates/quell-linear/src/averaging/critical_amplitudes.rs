@@ -92,7 +92,7 @@ pub fn critical_amplitudes(
         .into_iter()
         .map(|change| {
             let amplitude = change.location * first.frequency_ratio;
-            let most = -first.waveform.range().0;
+            let most = -first.waveform.range().lower;
             let own = if first.direction == Direction::Normal { most * amplitude } else { 0.0 };
             CriticalAmplitude {
                 amplitude_ratio: change.location,

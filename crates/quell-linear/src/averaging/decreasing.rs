@@ -112,7 +112,7 @@ pub(super) fn scaled_mean_exponential(waveform: &Waveform, a: f64) -> Result<f64
         }
         Waveform::Square => expm1_over(-PI * a),
         other => {
-            let (period, peak) = (other.period(), other.integral_range().1);
+            let (period, peak) = (other.period(), other.integral_range().upper);
             let decay = |phase: f64| exp(a * (other.integral(phase) - peak));
             let options = QuadratureOptions { relative: 1e-13, ..QuadratureOptions::default() };
             settled(integrate(decay, 0.0, period, other.breaks(), &options))?.value / period

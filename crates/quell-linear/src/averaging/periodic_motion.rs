@@ -46,11 +46,13 @@ impl LoadWave {
 
     /// The largest magnitude.
     pub fn peak(&self) -> f64 {
-        let [least, largest] = match self {
-            Self::Waveform(waveform) => waveform.range().into(),
-            Self::Response(response) => response.range(),
-        };
-        largest.max(-least)
+        match self {
+            Self::Waveform(waveform) => waveform.peak(),
+            Self::Response(response) => {
+                let [least, largest] = response.range();
+                largest.max(-least)
+            }
+        }
     }
 
     fn cycles(&self) -> u32 {

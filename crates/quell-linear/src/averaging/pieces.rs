@@ -141,7 +141,8 @@ fn extent(wave: &FastWave) -> ([f64; 2], f64) {
     match wave {
         FastWave::Response(response) => (response.range(), response.period()),
         FastWave::Integral(waveform) | FastWave::Oscillator { waveform, .. } => {
-            (waveform.integral_range().into(), waveform.period())
+            let range = waveform.integral_range();
+            ([range.lower, range.upper], waveform.period())
         }
     }
 }

@@ -9,6 +9,7 @@
 //! the sum of two eigenvalues is smooth, so that the coupling changes a growth rate by at most |D|/2.
 
 use num_complex::Complex64;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, ascending_by};
 use quell_numerics::polar::{modulus, square_root};
 
@@ -165,7 +166,7 @@ impl<'a, F: Family> Search<'a, F> {
                 let Some(found) = self.located(ends, third, guess) else { continue };
                 self.known.push(found);
                 if found.hides {
-                    let ends = (piece[0].value, piece[piece.len() - 1].value);
+                    let ends = RealInterval::new(piece[0].value, piece[piece.len() - 1].value);
                     self.around(found, b.value - a.value, ends, values);
                 }
             }
@@ -240,7 +241,7 @@ impl<'a, F: Family> Search<'a, F> {
     }
 
     /// Adds values around an approach, from its width to the step.
-    fn around(&mut self, found: Approach, step: f64, ends: (f64, f64), values: &mut Vec<f64>) {
+    fn around(&mut self, found: Approach, step: f64, ends: RealInterval, values: &mut Vec<f64>) {
         let width = found.width.max(self.shortest);
         let mut distances = vec![0.0];
         let mut distance = FIRST_DISTANCE * width;
@@ -249,7 +250,8 @@ impl<'a, F: Family> Search<'a, F> {
             distance *= RATIO;
         }
         let new = distances.into_iter().map(|distance| found.value + distance);
-        let new: Vec<f64> = new.filter(|value| *value > ends.0 && *value < ends.1).collect();
+        let new: Vec<f64> =
+            new.filter(|value| *value > ends.lower && *value < ends.upper).collect();
         self.left = self.left.saturating_sub(new.len());
         values.extend(new);
     }
@@ -339,7 +341,7 @@ mod tests {
 
     fn tracked(springs: &[f64], coupling: f64, damping: f64) -> Tracked<EigenError> {
         let family = Coupled { springs: springs.to_vec(), coupling, damping };
-        track(&family, (0.5, 50.0), 129).expect("eigenvalues exist")
+        track(&family, RealInterval::new(0.5, 50.0), 129).expect("eigenvalues exist")
     }
 
     fn instabilities(found: &Tracked<EigenError>) -> Vec<f64> {

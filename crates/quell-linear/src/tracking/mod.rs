@@ -15,6 +15,7 @@ mod thresholds;
 use approach::Search;
 use family::at;
 pub use family::{Family, TrackedPoint};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, ascending_by};
 pub use thresholds::{StabilityChange, ThresholdOfStability};
 
@@ -62,10 +63,10 @@ pub struct Tracked<E> {
 /// The reason at the first value, if no value of the window has eigenvalues.
 pub fn track<F: Family>(
     family: &F,
-    window: (f64, f64),
+    window: RealInterval,
     points: usize,
 ) -> Result<Tracked<F::Error>, F::Error> {
-    let (from, to) = window;
+    let RealInterval { lower: from, upper: to } = window;
     let count = points.max(2);
     let share = |k: usize| k as f64 / (count - 1) as f64;
     let mut grid: Vec<f64> = (0..count)

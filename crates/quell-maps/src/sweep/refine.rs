@@ -5,6 +5,7 @@
 //! the peak of the predicted tongue. An axis given by its values is left unchanged.
 
 use quell_disc::resonance::{Resonance, Tongue, Waves};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 
 use quell_model::parameter::disc::DISC_SPEED;
@@ -21,22 +22,28 @@ const ACROSS: [f64; 3] = [0.25, 0.5, 0.75];
 pub(super) fn values(study: &DiscStudy, sweep: &Sweep) -> Vec<f64> {
     let mut values: Vec<f64> = sweep.axis.values().collect();
     let range = match sweep.axis {
-        Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. } => (from, to),
+        Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. } => {
+            RealInterval::new(from, to)
+        }
         Axis::Values(_) => return values,
     };
     let Some(per_speed) = per_speed(study, sweep, range) else { return values };
-    let speeds = beside(study, (range.0 / per_speed, range.1 / per_speed));
+    let speeds = beside(study, RealInterval::new(range.lower / per_speed, range.upper / per_speed));
     values.extend(speeds.into_iter().map(|speed| speed * per_speed));
     ascending(&mut values);
     values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * per_speed.abs());
-    if range.0 > range.1 {
+    if range.lower > range.upper {
         values.reverse();
     }
     values
 }
 
 /// The value of an axis for the speed Ω = 1; `None` if it varies no speed.
-fn per_speed(study: &DiscStudy, sweep: &Sweep, (from, to): (f64, f64)) -> Option<f64> {
+fn per_speed(
+    study: &DiscStudy,
+    sweep: &Sweep,
+    RealInterval { lower: from, upper: to }: RealInterval,
+) -> Option<f64> {
     if !sweep.target.number.ends_with(&format!(".{}", DISC_SPEED.key())) {
         return None;
     }
@@ -47,7 +54,7 @@ fn per_speed(study: &DiscStudy, sweep: &Sweep, (from, to): (f64, f64)) -> Option
 }
 
 /// Points near the resonances strictly between two speeds.
-fn beside(study: &DiscStudy, (from, to): (f64, f64)) -> Vec<f64> {
+fn beside(study: &DiscStudy, RealInterval { lower: from, upper: to }: RealInterval) -> Vec<f64> {
     let (low, high) = (from.min(to), from.max(to));
     let mut points = Vec::new();
     for resonance in resonances(study, low, high) {

@@ -10,6 +10,7 @@ use crate::parameter::DITHER_FREQUENCY_RATIO;
 use crate::parameter::disc::DISC_DITHER_AMPLITUDE;
 use crate::profile::Knots;
 use crate::waveform::Waveform;
+use quell_numerics::interval::RealInterval;
 
 /// Waveform of a dither, and the share of its amplitude over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +31,9 @@ impl Default for DitherShape {
 impl DitherShape {
     /// The most negative value of e g.
     fn least(&self) -> f64 {
-        let (low, high) = self.waveform.range();
-        let (from, to) = self.envelope.as_ref().map_or((1.0, 1.0), Knots::range);
+        let RealInterval { lower: low, upper: high } = self.waveform.range();
+        let RealInterval { lower: from, upper: to } =
+            self.envelope.as_ref().map_or(RealInterval::point(1.0), Knots::range);
         let products = [from * low, from * high, to * low, to * high];
         products.into_iter().fold(f64::INFINITY, f64::min)
     }

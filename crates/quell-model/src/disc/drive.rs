@@ -4,6 +4,7 @@ use super::Disc;
 use crate::parameter::disc::DISC_SPEED;
 use crate::profile::{Knots, Profile};
 use crate::{Invalid, InvalidValues};
+use quell_numerics::interval::RealInterval;
 
 /// Path of the table.
 pub(super) const DISC_DRIVE: &str = "disc.drive";
@@ -23,7 +24,7 @@ impl Disc {
             let allowed = "later than the time before it: the speed of a disc cannot jump";
             complaints.push(Invalid::new(format!("{DISC_DRIVE}.time[{place}]"), time, allowed));
         }
-        let (least, most) = drive.bounds();
+        let RealInterval { lower: least, upper: most } = drive.bounds();
         let range = || format!("{least} to {most}");
         if [least, most].iter().any(|speed| DISC_SPEED.check(*speed).is_err()) {
             let allowed = format!("speeds {}", DISC_SPEED.bounds);

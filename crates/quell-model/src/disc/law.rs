@@ -54,11 +54,15 @@ impl Disc {
             }
         }
         if let Some(drive) = self.drive().filter(|_| count > 0) {
-            let (least, most) = drive.bounds();
-            if least <= 0.0 && most >= 0.0 {
+            let bounds = drive.bounds();
+            if bounds.contains(0.0) {
                 let allowed = "a speed of one sign at all times: a friction law requires sliding, and a load that stands still or turns \
                                round has no direction of sliding";
-                complaints.push(Invalid::new(DISC_DRIVE, format!("{least} to {most}"), allowed));
+                complaints.push(Invalid::new(
+                    DISC_DRIVE,
+                    format!("{} to {}", bounds.lower, bounds.upper),
+                    allowed,
+                ));
             }
         } else if self.speed == 0.0 && count > 0 {
             let allowed = "a speed other than 0: a friction law requires sliding";

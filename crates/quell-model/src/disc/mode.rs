@@ -190,7 +190,7 @@ impl Load {
         let slip_ratio = self.slip_ratio;
         complaints
             .extend(slip_ratio.and_then(|value| complain(&LOAD_SLIP_RATIO, value, index, count)));
-        if let Some((least, _)) = self.share.as_ref().map(Profile::bounds)
+        if let Some(least) = self.share.as_ref().map(|share| share.bounds().lower)
             && least.partial_cmp(&0.0) != Some(Ordering::Greater)
         {
             let key = indexed("disc.load", index, count, "envelope");

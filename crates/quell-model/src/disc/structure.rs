@@ -118,7 +118,7 @@ impl Disc {
         Some(own.in_units(&unit).and_then(|mut system| {
             for contact in &mut system.contacts {
                 let slip = contact.surface_velocity.bounds();
-                let slip = slip.0.abs().max(slip.1.abs());
+                let slip = slip.lower.abs().max(slip.upper.abs());
                 contact.friction =
                     contact.friction.placed(&Surroundings { normal_load: slip, slip })?;
             }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use quell_numerics::interval::RealInterval;
+
 use crate::Invalid;
 
 /// How the value passes from knot to knot.
@@ -128,10 +130,10 @@ impl Knots {
     }
 
     /// Smallest and largest value; both shapes stay between the values at their knots.
-    pub fn range(&self) -> (f64, f64) {
+    pub fn range(&self) -> RealInterval {
         let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         let most = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        (least, most)
+        RealInterval::new(least, most)
     }
 
     /// The knots with values of the opposite sign.
@@ -154,8 +156,8 @@ impl Knots {
 
     /// Whether all values are equal.
     pub fn is_constant(&self) -> bool {
-        let (least, most) = self.range();
-        least == most
+        let range = self.range();
+        range.lower == range.upper
     }
 
     /// Number of pieces, those before the first and after the last knot included.
@@ -245,7 +247,7 @@ mod tests {
                 assert!((knots.value(time) - value).abs() < 1e-15, "{shape:?} {time}");
             }
             assert_eq!(knots.first_jump(), Some(2));
-            assert_eq!(knots.range(), (-2.0, 3.0));
+            assert_eq!(knots.range(), RealInterval::new(-2.0, 3.0));
         }
         assert!(knots(KnotShape::Smooth).piece(1).shifted(3.0)[1].abs() < 1e-15);
     }

@@ -1,5 +1,7 @@
 //! Quantities that vary in time: a constant, values at knots, and periodic waves. Dither, its envelope, drives and loads are profiles.
 
+use quell_numerics::interval::RealInterval;
+
 mod knots;
 mod wave;
 
@@ -133,10 +135,10 @@ impl Profile {
     }
 
     /// Bounds of the value at all times: those of the knots, and the peaks of all waves.
-    pub fn bounds(&self) -> (f64, f64) {
-        let (least, most) = self.knots.as_ref().map_or((0.0, 0.0), Knots::range);
+    pub fn bounds(&self) -> RealInterval {
+        let knots = self.knots.as_ref().map_or(RealInterval::point(0.0), Knots::range);
         let waves: f64 = self.waves.iter().map(Wave::peak).sum();
-        (self.mean + least - waves, self.mean + most + waves)
+        RealInterval::new(self.mean + knots.lower - waves, self.mean + knots.upper + waves)
     }
 }
 
@@ -158,7 +160,7 @@ mod tests {
             assert!(steady.is_steady());
             assert!((steady.value(time) - profile.value(time)).abs() < 1e-15);
         }
-        assert_eq!(profile.bounds(), (-2.5, 1.5));
+        assert_eq!(profile.bounds(), RealInterval::new(-2.5, 1.5));
         for time in [-1.0, 1.3, 7.0] {
             assert!((profile.scaled(-3.0).value(time) + 3.0 * profile.value(time)).abs() < 1e-14);
         }

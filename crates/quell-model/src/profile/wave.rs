@@ -37,10 +37,7 @@ impl Wave {
 
     /// Largest magnitude of the wave.
     pub fn peak(&self) -> f64 {
-        let share = self.envelope.as_ref().map_or(1.0, |knots| {
-            let (least, most) = knots.range();
-            least.abs().max(most.abs())
-        });
+        let share = self.envelope.as_ref().map_or(1.0, |knots| knots.range().magnitude());
         share * self.amplitude.abs() * self.waveform.peak()
     }
 

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use quell_numerics::interval::RealInterval;
+
 use super::WaveformError;
 
 /// Most harmonics of a sum, and the highest order: every harmonic is a wave of its own in each step of a run.
@@ -34,8 +36,8 @@ impl Harmonic {
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourierWave {
     harmonics: Vec<Harmonic>,
-    range: (f64, f64),
-    integral_range: (f64, f64),
+    range: RealInterval,
+    integral_range: RealInterval,
 }
 
 impl FourierWave {
@@ -67,7 +69,8 @@ impl FourierWave {
         if known.is_empty() {
             return wrong("of coefficients that are not all zero".to_owned());
         }
-        let mut wave = Self { harmonics: known, range: (0.0, 0.0), integral_range: (0.0, 0.0) };
+        let none = RealInterval::point(0.0);
+        let mut wave = Self { harmonics: known, range: none, integral_range: none };
         wave.range = wave.extremes(|wave, at| (wave.value(at), wave.slope(at), wave.curvature(at)));
         wave.integral_range =
             wave.extremes(|wave, at| (wave.integral(at), wave.value(at), wave.slope(at)));
@@ -82,11 +85,10 @@ impl FourierWave {
     /// −g.
     pub(super) fn negated(&self) -> Self {
         let negated = |h: &Harmonic| Harmonic { order: h.order, sine: -h.sine, cosine: -h.cosine };
-        let turned = |(least, largest): (f64, f64)| (-largest, -least);
         Self {
             harmonics: self.harmonics.iter().map(negated).collect(),
-            range: turned(self.range),
-            integral_range: turned(self.integral_range),
+            range: -self.range,
+            integral_range: -self.integral_range,
         }
     }
 
@@ -117,11 +119,11 @@ impl FourierWave {
         self.sum(phase, |n, (sine, cosine), h| (h.cosine * sine - h.sine * cosine) / n)
     }
 
-    pub(super) fn range(&self) -> (f64, f64) {
+    pub(super) fn range(&self) -> RealInterval {
         self.range
     }
 
-    pub(super) fn integral_range(&self) -> (f64, f64) {
+    pub(super) fn integral_range(&self) -> RealInterval {
         self.integral_range
     }
 
@@ -140,7 +142,7 @@ impl FourierWave {
 
     /// Least and largest value of a function of the phase that is given with its first two derivatives: the extremes of a fine
     /// grid, improved by Newton's method.
-    fn extremes(&self, function: impl Fn(&Self, f64) -> (f64, f64, f64)) -> (f64, f64) {
+    fn extremes(&self, function: impl Fn(&Self, f64) -> (f64, f64, f64)) -> RealInterval {
         const POINTS: u32 = 32;
         const STEPS: u32 = 30;
         let highest = self.harmonics.last().map_or(1, |harmonic| harmonic.order);
@@ -169,6 +171,6 @@ impl FourierWave {
             }
             sign * best
         };
-        (best(-1.0), best(1.0))
+        RealInterval::new(best(-1.0), best(1.0))
     }
 }

@@ -18,6 +18,8 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+use quell_numerics::interval::RealInterval;
+
 mod burst;
 mod coefficients;
 mod fourier;
@@ -231,22 +233,24 @@ impl Waveform {
     }
 
     /// Least and largest value of G: ∓1, ∓π/4, ∓π/2 for the waveforms of the dissertation; of noise four standard deviations.
-    pub fn integral_range(&self) -> (f64, f64) {
+    pub fn integral_range(&self) -> RealInterval {
         match self {
             Self::Fourier(series) => series.integral_range(),
-            Self::Noise(noise) => (-noise.reach_of_integral(), noise.reach_of_integral()),
+            Self::Noise(noise) => {
+                RealInterval::new(-noise.reach_of_integral(), noise.reach_of_integral())
+            }
             _ => match (self.shape(), self.table()) {
-                (Some(shape), _) => (-shape.peak_integral, shape.peak_integral),
+                (Some(shape), _) => RealInterval::new(-shape.peak_integral, shape.peak_integral),
                 (_, Some(table)) => table.integral_range(),
-                _ => (0.0, 0.0),
+                _ => RealInterval::point(0.0),
             },
         }
     }
 
     /// max |G|: 1, π/4, π/2.
     pub fn peak_integral(&self) -> f64 {
-        let (least, largest) = self.integral_range();
-        largest.max(-least)
+        let range = self.integral_range();
+        range.upper.max(-range.lower)
     }
 
     /// ⟨G²⟩: 1/2, π²/30, π²/12.
@@ -276,18 +280,18 @@ impl Waveform {
     }
 
     /// Least and largest value of g: ∓1 for the waveforms of the dissertation; of noise bounds, where all lines are in phase.
-    pub fn range(&self) -> (f64, f64) {
+    pub fn range(&self) -> RealInterval {
         match self {
             Self::Fourier(series) => series.range(),
-            Self::Noise(noise) => (-noise.bound(), noise.bound()),
-            _ => self.table().map_or((-1.0, 1.0), WaveTable::range),
+            Self::Noise(noise) => RealInterval::new(-noise.bound(), noise.bound()),
+            _ => self.table().map_or(RealInterval::new(-1.0, 1.0), WaveTable::range),
         }
     }
 
     /// max |g|.
     pub fn peak(&self) -> f64 {
-        let (least, largest) = self.range();
-        largest.max(-least)
+        let range = self.range();
+        range.upper.max(-range.lower)
     }
 
     /// Fourier coefficient b_n of sin nθ of a waveform of the dissertation, which is odd and antiperiodic, so that all others

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use quell_numerics::interval::RealInterval;
+
 use super::shape::Piece;
 
 /// Breaks and pieces with the numbers that follow from them.
@@ -12,8 +14,8 @@ pub(super) struct WaveTable {
     pieces: Vec<Piece>,
     /// G at the breaks.
     integrals: Vec<f64>,
-    range: (f64, f64),
-    integral_range: (f64, f64),
+    range: RealInterval,
+    integral_range: RealInterval,
     mean_square: f64,
     mean_square_integral: f64,
 }
@@ -66,8 +68,8 @@ impl WaveTable {
             breaks,
             pieces,
             integrals,
-            range: (0.0, 0.0),
-            integral_range: (0.0, 0.0),
+            range: RealInterval::point(0.0),
+            integral_range: RealInterval::point(0.0),
             mean_square: 0.0,
             mean_square_integral: 0.0,
         };
@@ -95,8 +97,8 @@ impl WaveTable {
             square += length * mean_square(piece, length);
             square_integral += length * mean_square_of_integral(piece, start, length);
         }
-        table.range = (least, largest);
-        table.integral_range = (low, high);
+        table.range = RealInterval::new(least, largest);
+        table.integral_range = RealInterval::new(low, high);
         table.mean_square = square / period;
         table.mean_square_integral = square_integral / period;
         table
@@ -116,11 +118,11 @@ impl WaveTable {
         self.integrals[index] + at(self.pieces[index], phase - self.breaks[index]).1
     }
 
-    pub(super) fn range(&self) -> (f64, f64) {
+    pub(super) fn range(&self) -> RealInterval {
         self.range
     }
 
-    pub(super) fn integral_range(&self) -> (f64, f64) {
+    pub(super) fn integral_range(&self) -> RealInterval {
         self.integral_range
     }
 

@@ -34,11 +34,6 @@ pub(super) const FARTHEST_NUDGE: f64 = 1e-3;
 /// Number of points before a curve may close.
 const CLOSING: usize = 8;
 
-/// The value at a fraction of a window; exact at both ends.
-pub(super) fn value((from, to): (f64, f64), share: f64) -> f64 {
-    if share == 1.0 { to } else { (to - from).mul_add(share, from) }
-}
-
 /// Whether a curve with this number of points has returned to its start: closer than a fraction of the last step, in the same
 /// direction. `here` and `begin` are each a point and its tangent.
 pub(super) fn closes(

@@ -8,6 +8,7 @@
 //! A curve of folds, flips or Neimark–Sacker bifurcations ends where its orbit grazes the border of its signature; a curve of
 //! Neimark–Sacker bifurcations also ends where its pair becomes real, at ±1.
 
+use crate::interval::RealInterval;
 use num_complex::Complex64;
 
 use super::arc::{
@@ -21,9 +22,9 @@ use crate::matrix::Matrix;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
     /// Window of the first parameter.
-    pub first: (f64, f64),
+    pub first: RealInterval,
     /// Window of the second parameter.
-    pub second: (f64, f64),
+    pub second: RealInterval,
     /// Longest step in scaled coordinates, in which both windows have width 1.
     pub longest: f64,
     /// Shortest step; below it the curve counts as lost.
@@ -34,7 +35,7 @@ pub struct Trace {
 
 impl Trace {
     /// Settings for two windows with at least `steps` points across each of them.
-    pub fn windows(first: (f64, f64), second: (f64, f64), steps: u32) -> Self {
+    pub fn windows(first: RealInterval, second: RealInterval, steps: u32) -> Self {
         let longest = 1.0 / f64::from(steps.max(1));
         Self { first, second, longest, shortest: 1e-7, most_points: 2000 }
     }
@@ -94,7 +95,7 @@ impl<F: PeriodMap> Equations<'_, F> {
         let n = unknowns.len() - 2;
         let state = unknowns[..n].iter().map(|x| x * self.family.scale()).collect();
         let Trace { first, second, .. } = self.trace;
-        (state, [arc::value(first, unknowns[n]), arc::value(second, unknowns[n + 1])])
+        (state, [first.at(unknowns[n]), second.at(unknowns[n + 1])])
     }
 
     /// The test function at an image; a distance is scaled as a length.
@@ -283,10 +284,9 @@ pub fn trace<F: PeriodMap>(
     options: Trace,
 ) -> Option<BifurcationCurve> {
     let equations = Equations { family, trace: options, kind, held: signature };
-    let share = |(from, to): (f64, f64), value: f64| (value - from) / (to - from);
     let mut unknowns: Vec<f64> = state.iter().map(|x| x / family.scale()).collect();
-    unknowns.push(share(options.first, parameters[0]));
-    unknowns.push(share(options.second, parameters[1]));
+    unknowns.push(options.first.share_of(parameters[0]));
+    unknowns.push(options.second.share_of(parameters[1]));
     let n = state.len();
     // The first point is computed at a fixed second parameter or, if that fails, at a fixed first parameter.
     let met = (0..2).find_map(|offset| {

@@ -1,12 +1,10 @@
 //! Outlines of the shapes of mechanical drawings: coils, dashpots, hatching, belts, arrows, arcs and waves.
 
-use crate::geometry::{PlotPoint, PlotRange};
 use std::f64::consts::{PI, TAU};
 
 use crate::canvas::Rectangle;
+use crate::geometry::{PlotPoint, PlotRange};
 use crate::palette::LineStyle;
-
-/// A position in pixels of 1/96 inch from the upper left.
 
 /// Half the width of a coil spring.
 const COIL: f64 = 5.0;

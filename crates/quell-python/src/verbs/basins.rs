@@ -7,7 +7,7 @@ use quell::run::basins::{BasinsRequest, StartLayout, default_plane, read_plane};
 use quell::run::varied::Range;
 use quell::study::SystemStudy;
 use quell::verbs::{system_of, verbs};
-use quell::{Failure, Study, quantity};
+use quell::{Failure, RealInterval, Study, quantity};
 use quell_model::units::Quantity;
 
 use super::map::{Counter, Watched};
@@ -24,9 +24,9 @@ fn window(
     pair: Option<&Pair>,
     quantity: Quantity,
     option: &'static str,
-) -> Result<Option<(f64, f64)>, Failure> {
+) -> Result<Option<RealInterval>, Failure> {
     let read = |text: &str| quantity::number(text, Some(quantity), system.units(), option);
-    pair.map(|(from, to)| Ok((read(from)?, read(to)?))).transpose()
+    pair.map(|(from, to)| Ok(RealInterval::new(read(from)?, read(to)?))).transpose()
 }
 
 /// Runs the verb.

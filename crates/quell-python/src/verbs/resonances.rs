@@ -3,7 +3,7 @@
 use quell::run::disc::resonances::{Order, ResonancesRequest};
 use quell::run::system::reach::without_waves;
 use quell::verbs::verbs;
-use quell::{Failure, Study, quantity};
+use quell::{Failure, RealInterval, Study, quantity};
 
 use super::refused;
 use crate::answer::NativeAnswer;
@@ -25,13 +25,13 @@ pub(crate) fn run(
         return reach(study, order, &ranges);
     }
     let [speeds, clear, frequency] = ranges;
-    let range = |pair: &Option<Pair>, option| -> Result<Option<(f64, f64)>, Failure> {
+    let range = |pair: &Option<Pair>, option| -> Result<Option<RealInterval>, Failure> {
         let Some((from, to)) = pair else { return Ok(None) };
         let read = |text: &str| quantity::frequency(text, disc.as_ref(), option);
-        Ok(Some((read(from)?, read(to)?)))
+        Ok(Some(RealInterval::new(read(from)?, read(to)?)))
     };
     // The default range is that of the command line.
-    let speeds = range(&speeds, "--speeds")?.unwrap_or((0.0, 1.0));
+    let speeds = range(&speeds, "--speeds")?.unwrap_or(RealInterval::new(0.0, 1.0));
     let (clear, frequency) = (range(&clear, "--clear")?, range(&frequency, "--frequency")?);
     let request = ResonancesRequest::new(speeds, order, clear, frequency)?;
     Ok(NativeAnswer::new(verbs(study).resonances(request)?))
@@ -47,7 +47,7 @@ fn reach(
     without_waves(shown(speeds).as_deref(), order, shown(clear).as_deref())?;
     let read = |text: &str| quantity::dither_frequency(text, Some(study), "--frequency");
     let range = match frequency {
-        Some((from, to)) => Some((read(from)?, read(to)?)),
+        Some((from, to)) => Some(RealInterval::new(read(from)?, read(to)?)),
         None => None,
     };
     Ok(NativeAnswer::new(verbs(study).reach(range)?))

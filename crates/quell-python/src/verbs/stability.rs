@@ -2,7 +2,7 @@
 
 use quell::run::system::tracked::TrackRequest;
 use quell::verbs::verbs;
-use quell::{Failure, Study, quantity};
+use quell::{Failure, RealInterval, Study, quantity};
 
 use crate::answer::NativeAnswer;
 use crate::arguments::{Pair, ends};
@@ -25,7 +25,7 @@ pub(crate) fn run_tracked(
     let along = match along {
         Some((path, between)) => {
             let value = |text: &str| quantity::value_of(Some(study), text, &path, "--between");
-            let between = (value(&between.0)?, value(&between.1)?);
+            let between = RealInterval::new(value(&between.0)?, value(&between.1)?);
             Some((path, between))
         }
         None => None,

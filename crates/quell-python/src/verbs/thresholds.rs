@@ -5,7 +5,7 @@ use quell::run::system::start;
 use quell::run::thresholds::curves::CurvesRequest;
 use quell::run::thresholds::{ThresholdsRequest, window_of};
 use quell::verbs::{system_of, verbs};
-use quell::{Failure, Study, quantity};
+use quell::{Failure, RealInterval, Study, quantity};
 
 use crate::answer::NativeAnswer;
 use crate::arguments::{GivenState, Pair};
@@ -18,8 +18,8 @@ fn window(
     study: &Study,
     parameter: &str,
     (from, to): &Ends,
-    along: Option<(&str, (f64, f64))>,
-) -> Result<(f64, f64), Failure> {
+    along: Option<(&str, RealInterval)>,
+) -> Result<RealInterval, Failure> {
     let end = |option, text: &Option<String>| {
         let read = |text: &str| quantity::value_of(Some(study), text, parameter, option);
         text.as_deref().map(read).transpose()
@@ -64,7 +64,7 @@ pub(crate) fn run_along(
 ) -> Result<NativeAnswer, Failure> {
     let verbs = verbs(study);
     let value = |text: &str| quantity::value_of(Some(study), text, &along, "--between");
-    let between = (value(&between.0)?, value(&between.1)?);
+    let between = RealInterval::new(value(&between.0)?, value(&between.1)?);
     let window = window(study, &parameter, range, Some((&along, between)))?;
     let request = CurvesRequest { parameter, window, along, between };
     Ok(NativeAnswer::new(verbs.threshold_curves(&request)?))

@@ -6,6 +6,7 @@ use quell_disc::plate::{ModeSet, Plate, PlateMaterial, Reference};
 use quell_disc::undithered;
 use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load};
+use quell_numerics::interval::RealInterval;
 
 use super::super::disc::STRENGTH_PER_PRINTED;
 use super::super::failure::failed;
@@ -16,7 +17,7 @@ use quell::complaint::Failure;
 /// The speeds at which a motion grows at a printed friction (10⁻⁴).
 fn growing(
     disc: &Disc,
-    (from, to): (f64, f64),
+    RealInterval { lower: from, upper: to }: RealInterval,
     printed: f64,
     steps: u32,
 ) -> Result<Vec<GrowingSpeeds>, Failure> {
@@ -34,7 +35,9 @@ const FRICTIONS: [f64; 8] = [0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0];
 fn induced_bands(disc: &Disc) -> Result<Vec<Option<(f64, GrowingSpeeds)>>, Failure> {
     let speeds: Vec<f64> = meetings(disc, true)?.iter().map(|meeting| meeting.speed).collect();
     let rows = FRICTIONS
-        .in_parallel(|&friction| Ok((friction, growing(disc, (0.28, 1.0), friction, 90)?)))
+        .in_parallel(|&friction| {
+            Ok((friction, growing(disc, RealInterval::new(0.28, 1.0), friction, 90)?))
+        })
         .collect::<Result<Vec<_>, Failure>>()?;
     let mut found: Vec<Option<(f64, GrowingSpeeds)>> = vec![None; speeds.len()];
     for (friction, band) in rows.iter().flat_map(|(f, bands)| bands.iter().map(|band| (*f, *band)))
@@ -131,20 +134,26 @@ pub(super) fn more_bands(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let friction = 0.15;
     let sets = [([1, 2], reference(2)?), ([1, 5], reference(5)?), ([2, 5], reference(5)?)];
     let bands = sets
-        .in_parallel(|&(modes, own)| -> Result<Vec<(f64, f64)>, Failure> {
+        .in_parallel(|&(modes, own)| -> Result<Vec<RealInterval>, Failure> {
             let disc = disc(modes, 0.1, 0.0, DiscDither::None)?;
             let scale = own / unit;
             // The same speeds in radians per second.
-            let bands = growing(&disc, (0.02 / scale, 0.8 / scale), friction, 160)?;
-            Ok(bands.iter().map(|band| (band.from * scale, band.to * scale)).collect())
+            let bands =
+                growing(&disc, RealInterval::new(0.02 / scale, 0.8 / scale), friction, 160)?;
+            Ok(bands
+                .iter()
+                .map(|band| RealInterval::new(band.from * scale, band.to * scale))
+                .collect())
         })
         .collect::<Result<Vec<_>, Failure>>()?;
-    let share = |bands: &[(f64, f64)]| bands.iter().map(|(from, to)| to - from).sum::<f64>() / 0.78;
+    let share = |bands: &[RealInterval]| {
+        bands.iter().map(|RealInterval { lower: from, upper: to }| to - from).sum::<f64>() / 0.78
+    };
     let counts: Vec<f64> = bands.iter().map(|bands| bands.len() as f64).collect();
     let shares: Vec<f64> = bands.iter().map(|bands| share(bands)).collect();
     // A band of fewer modes is found again if speeds of it are unstable with more modes too.
-    let meets = |one: &(f64, f64), others: &[(f64, f64)]| {
-        others.iter().any(|other| one.0 < other.1 && other.0 < one.1)
+    let meets = |one: &RealInterval, others: &[RealInterval]| {
+        others.iter().any(|other| one.lower < other.upper && other.lower < one.upper)
     };
     let again = bands.windows(2).all(|pair| pair[0].iter().all(|band| meets(band, &pair[1])));
     sheet
@@ -172,12 +181,12 @@ pub(super) fn more_bands(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 /// "The only influential parameter in the subcritical range is the friction follower force amplitude."
 pub(super) fn friction_alone(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let base = disc([1, 2], 0.1, 0.0, DiscDither::None)?;
-    let largest = |load: &Load, range: (f64, f64)| -> Result<f64, Failure> {
+    let largest = |load: &Load, range: RealInterval| -> Result<f64, Failure> {
         let loaded = Disc::new(base.modes().to_vec(), vec![load.clone()], DiscDither::None, 0.0)
             .map_err(|_| failed("claims", &"a disc of chapter 5 is not valid"))?;
         let mut most = f64::NEG_INFINITY;
         for k in 1..=200 {
-            let speed = range.0 + (range.1 - range.0) * f64::from(k) / 201.0;
+            let speed = range.lower + range.width() * f64::from(k) / 201.0;
             let found =
                 undithered::growth(&at(&loaded, speed)?).map_err(|why| failed("claims", &why))?;
             most = most.max(found.rate);
@@ -194,8 +203,8 @@ pub(super) fn friction_alone(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         [0.01, 0.3, 0.1],
     ] {
         let load = Load::new(mass, damping, stiffness, 0.0);
-        below.push(largest(&load, (0.0, 1.0))?);
-        above.push(largest(&load, (1.0, 1.6))?);
+        below.push(largest(&load, RealInterval::new(0.0, 1.0))?);
+        above.push(largest(&load, RealInterval::new(1.0, 1.6))?);
     }
     let most = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let found = [most(&below), most(&above)];
@@ -226,7 +235,7 @@ pub(super) fn plate_damping(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             let mut unstable = 0.0;
             for k in 1..=20 {
                 // Below the friction at which every speed is unstable, where bands can be seen.
-                let bands = growing(&disc, (0.02, 1.0), 0.02 * f64::from(k), 120)?;
+                let bands = growing(&disc, RealInterval::new(0.02, 1.0), 0.02 * f64::from(k), 120)?;
                 unstable += bands.iter().map(|band| band.to - band.from).sum::<f64>() / 0.98 / 20.0;
             }
             Ok(unstable)
@@ -257,7 +266,7 @@ pub(super) fn suppression(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     // The band of Ω_2 at a friction far below that at which waves grow on their own.
     let peak = |dither: DiscDither| -> Result<f64, Failure> {
         let disc = disc([1, 2], 0.1, 0.0, dither)?;
-        let bands = growing(&disc, (0.06, 0.1), 0.04, 60)?;
+        let bands = growing(&disc, RealInterval::new(0.06, 0.1), 0.04, 60)?;
         Ok(bands.iter().map(|band| band.peak_growth).fold(0.0, f64::max))
     };
     let found = [peak(DiscDither::None)?, peak(NORMAL)?, peak(TANGENTIAL)?];
@@ -310,7 +319,7 @@ pub(super) fn narrow(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for size in [0.1, 0.2, 0.3] {
         let disc = disc([1, 2], size, 0.0, TANGENTIAL)?;
         for meeting in meetings(&disc, false)?.iter().take(4) {
-            let range = (0.9 * meeting.speed, meeting.speed);
+            let range = RealInterval::new(0.9 * meeting.speed, meeting.speed);
             let bands = growing(&disc, range, 1.5, 60)?;
             widths.push(bands.iter().map(|band| band.to - band.from).sum::<f64>());
         }

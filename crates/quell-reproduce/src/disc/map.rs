@@ -8,6 +8,7 @@ use quell_disc::resonance::{Order, Resonance, Waves};
 use quell_linear::growth::Verdict;
 use quell_model::Disc;
 use quell_model::disc::DiscDither;
+use quell_numerics::interval::RealInterval;
 
 use super::super::caption::letter;
 use super::super::failure::failed;
@@ -165,7 +166,7 @@ fn draw(
     for (index, (study, disc)) in studies.iter().enumerate() {
         let [speeds, frictions] = axes(source, study)?;
         let frictions = with_low_frictions(frictions);
-        let ends = (frictions[0], frictions[frictions.len() - 1]);
+        let ends = RealInterval::new(frictions[0], frictions[frictions.len() - 1]);
         let speeds = speeds_of_tongues(source.name, disc, speeds, ends)?;
         let done = growths(source.name, disc, speeds, frictions)?;
         let name = letter(index).to_string();
@@ -228,7 +229,7 @@ fn panel(
             let low = done.frictions.first().copied().unwrap_or(0.0).max(1e-3 * high);
             let step = |k: usize| libm::pow(high / low, k as f64 / (EDGES - 1) as f64);
             let frictions: Vec<f64> = (0..EDGES).map(|k| low * step(k)).collect();
-            picture::disc::tongues(disc, (*from, *to), &frictions, |f| f * unit)
+            picture::disc::tongues(disc, RealInterval::new(*from, *to), &frictions, |f| f * unit)
         }
         _ => Vec::new(),
     };

@@ -12,6 +12,7 @@ use quell::parallel::Parallel;
 use quell::plot::{PlotPoint, isolines};
 use quell_disc::resonance::{Resonance, Waves};
 use quell_model::Disc;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 use quell_numerics::roots::{Closeness, try_find_root};
 
@@ -78,18 +79,23 @@ pub(super) fn speeds_of_tongues(
     source: &str,
     disc: &Disc,
     speeds: Vec<f64>,
-    (lowest, highest): (f64, f64),
+    RealInterval { lower: lowest, upper: highest }: RealInterval,
 ) -> Result<Vec<f64>, Failure> {
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else { return Ok(speeds) };
     let mut all = speeds;
-    let mut intervals = vec![(first, last)];
+    let mut intervals = vec![RealInterval::new(first, last)];
     let mut friction = highest;
     while friction >= lowest && !intervals.is_empty() {
         all.extend(predicted(disc, friction, first..=last));
         sort(&mut all, last);
         intervals = growing(source, disc, &all, &intervals, friction)?;
-        let narrow = intervals.iter().filter(|(from, to)| to - from < WIDE * to);
-        all.extend(narrow.flat_map(|&(from, to)| [from, 0.5 * (from + to), to]));
+        let narrow = intervals
+            .iter()
+            .filter(|RealInterval { lower: from, upper: to }| to - from < WIDE * to);
+        all.extend(
+            narrow
+                .flat_map(|&RealInterval { lower: from, upper: to }| [from, 0.5 * (from + to), to]),
+        );
         friction *= FRICTION_RATIO;
     }
     sort(&mut all, last);
@@ -114,12 +120,12 @@ fn growing(
     source: &str,
     disc: &Disc,
     speeds: &[f64],
-    before: &[(f64, f64)],
+    before: &[RealInterval],
     friction: f64,
-) -> Result<Vec<(f64, f64)>, Failure> {
+) -> Result<Vec<RealInterval>, Failure> {
     // Tongues lean: at a lower friction one may reach beyond the interval at the higher one.
     let is_near = |speed: f64| {
-        before.iter().any(|(from, to)| {
+        before.iter().any(|RealInterval { lower: from, upper: to }| {
             let margin = 0.5 * (to - from);
             speed >= from - margin && speed <= to + margin
         })
@@ -150,7 +156,8 @@ fn growing(
             let found = try_find_root(at, speeds[inside], speeds[outside], CLOSENESS)?;
             Ok(found.map_or(speeds[inside], |root| root.location))
         };
-        intervals.push((edge(begin, begin.checked_sub(1))?, edge(end, Some(end + 1))?));
+        let lower = edge(begin, begin.checked_sub(1))?;
+        intervals.push(RealInterval::new(lower, edge(end, Some(end + 1))?));
     }
     Ok(intervals)
 }
@@ -178,7 +185,7 @@ mod tests {
         let disc = study.disc();
         let unit = super::super::FRICTION_PER_PRINTED * 1e-4;
         let frictions: Vec<f64> = [0.002, 0.02, 0.1, 0.3, 0.8, 1.4].map(|f| f * unit).to_vec();
-        let ends = (frictions[0], frictions[5]);
+        let ends = RealInterval::new(frictions[0], frictions[5]);
         let grid = (1..40).map(|k| 0.025 * f64::from(k)).collect();
         let speeds = speeds_of_tongues("5.9", disc, grid, ends).expect("speeds");
         let growths =

@@ -6,12 +6,13 @@ use quell_model::System;
 use quell_model::digits::digits;
 use quell_model::system::{MassMatrix, Mechanical};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 
 use quell_model::units::UnitSystem;
 
 /// Natural frequencies of structures that friction excites, Hz.
-const FREQUENCIES: (f64, f64) = (0.01, 1e7);
+const FREQUENCIES: RealInterval = RealInterval::new(0.01, 1e7);
 
 /// The fastest surface that is likely, m/s: beyond high-speed trains at their wheel.
 const FASTEST: f64 = 90.0;
@@ -29,7 +30,7 @@ const HEAVIEST_LOAD: f64 = 1e5;
 const HEAVIEST_LOAD_ON_MODES: f64 = 3e4;
 
 /// Masses that modes are likely to have at a contact, kg.
-const MASSES_OF_MODES: (f64, f64) = (1e-5, 1e4);
+const MASSES_OF_MODES: RealInterval = RealInterval::new(1e-5, 1e4);
 
 /// The highest natural frequency that the spring of a contact is likely to have on modes, in that of the highest mode.
 const STIFFEST_CONTACT: f64 = 10.0;
@@ -47,7 +48,7 @@ pub fn warnings(system: &System, units: UnitSystem, modal: bool) -> Vec<String> 
     let mass = mechanical.mass().matrix();
     for (i, coordinate) in mechanical.coordinates().iter().enumerate() {
         let hertz = (mechanical.stiffness()[(i, i)] / mass[(i, i)]).sqrt() / TAU;
-        if hertz > FREQUENCIES.1 || (hertz > 0.0 && hertz < FREQUENCIES.0) {
+        if hertz > FREQUENCIES.upper || (hertz > 0.0 && hertz < FREQUENCIES.lower) {
             warnings.push(format!(
                 "{coordinate} alone would vibrate at {hertz:.3e} Hz: check whether mass and stiffness are in {name}"
             ));
@@ -144,7 +145,7 @@ fn of_modes(system: &System, mechanical: &Mechanical, units: UnitSystem) -> Vec<
         let spring = contact.normal.as_deref().and_then(|row| mass_along(mass, row));
         let spring = spring.map(|own| (contact.normal_stiffness / own).sqrt() / highest);
         let name = &contact.name;
-        if !(MASSES_OF_MODES.0..=MASSES_OF_MODES.1).contains(&in_kilograms) {
+        if !MASSES_OF_MODES.contains(in_kilograms) {
             warnings.push(format!(
                 "the modes have a mass of {in_kilograms:.3e} kg at contact {name}: {question}"
             ));

@@ -9,6 +9,7 @@ use quell_input::complaint::{Complaint, Fault, Origin};
 use quell_input::document::{Node, Table, Value};
 use quell_model::digits::digits;
 use quell_model::parameter::Bounds;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::address::NumberAddress;
@@ -57,9 +58,10 @@ impl Uncertainty {
     /// exceeds.
     pub(super) fn extremes(&self) -> impl Iterator<Item = (&str, Origin, Distribution, [f64; 2])> {
         self.numbers.iter().zip(self.joint.distributions()).map(|(number, distribution)| {
-            let (low, high) = distribution
-                .ends()
-                .unwrap_or_else(|| (distribution.at(-CHECKED), distribution.at(CHECKED)));
+            let RealInterval { lower: low, upper: high } =
+                distribution.ends().unwrap_or_else(|| {
+                    RealInterval::new(distribution.at(-CHECKED), distribution.at(CHECKED))
+                });
             (number.path.as_str(), number.origin, *distribution, [low, high])
         })
     }

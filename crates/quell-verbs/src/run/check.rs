@@ -4,6 +4,7 @@ use quell_linear::averaging::DitheredSystem;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, Structure};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::actuator::beyond_actuator;
@@ -92,7 +93,7 @@ pub fn damping_ratios(study: &SystemStudy) -> Option<Vec<f64>> {
 
 /// A number that may vary in time: its value, or its bounds.
 fn put_over_time(fields: &mut Fields, name: &str, quantity: Quantity, profile: &Profile) {
-    let (least, largest) = profile.bounds();
+    let RealInterval { lower: least, upper: largest } = profile.bounds();
     if least == largest {
         fields.number(name, quantity, least);
         return;

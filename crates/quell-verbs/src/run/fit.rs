@@ -15,6 +15,7 @@ use quell_model::InvalidValues;
 use quell_model::friction::LawKind;
 use quell_model::parameter::Parameter;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 
@@ -342,7 +343,7 @@ impl FrictionFit {
         let slowest = speeds().fold(f64::INFINITY, f64::min);
         let fastest = speeds().fold(0.0, f64::max);
         let count = if slowest < fastest { count } else { 1 };
-        let speeds = super::evenly((slowest, fastest), count);
+        let speeds = super::evenly(RealInterval::new(slowest, fastest), count);
         let t = self.quantile(fit);
         let of = |side: f64| -> Vec<f64> {
             let at = |v: &f64| fit.coefficient(*v) + side * t * fit.standard_deviation(*v);

@@ -4,6 +4,7 @@ use quell_model::Friction;
 use quell_model::friction::samples::Fit;
 use quell_model::parameter::COEFFICIENT;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::{Map, Value as Json};
 
 use crate::fields::Fields;
@@ -39,8 +40,8 @@ pub(super) fn fields(law: &Friction, load: f64, empty: &dyn Fn() -> Fields) -> F
                 .plain("held_at_static_coefficient", fit.pinned)
                 .number("coefficient_at_rest", Quantity::Ratio, fit.start())
                 .number("coefficient_far_out", Quantity::Ratio, fit.limit)
-                .number("slip_velocity_from", Quantity::Velocity, fit.range.0 * unit)
-                .number("slip_velocity_to", Quantity::Velocity, fit.range.1 * unit);
+                .number("slip_velocity_from", Quantity::Velocity, fit.range.lower * unit)
+                .number("slip_velocity_to", Quantity::Velocity, fit.range.upper * unit);
             fields.nested("fit", inner);
         }
         // A level at which sliding friction is constant is a force.
@@ -87,7 +88,7 @@ fn of_own_law(law: &Friction, speed: &dyn Fn(f64) -> String) -> Vec<(String, Str
         Friction::Samples(law) => {
             let fit = law.fit();
             let unit = law.curve().velocity_unit();
-            let (from, to) = fit.range;
+            let RealInterval { lower: from, upper: to } = fit.range;
             vec![
                 row(
                     "samples",

@@ -43,6 +43,7 @@ pub mod waveforms;
 pub mod window;
 
 use crate::complaint::Failure;
+use quell_numerics::interval::RealInterval;
 
 /// The failure of an interrupted verb.
 fn stopped(verb: &str) -> Failure {
@@ -50,7 +51,7 @@ fn stopped(verb: &str) -> Failure {
 }
 
 /// `count` values at equal steps; both ends are included and exact.
-fn evenly((from, to): (f64, f64), count: usize) -> Vec<f64> {
+fn evenly(RealInterval { lower: from, upper: to }: RealInterval, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1);
     let value = |k: usize| from + (to - from) * k as f64 / last as f64;
     (0..count).map(|k| if k == last { to } else { value(k) }).collect()

@@ -4,6 +4,7 @@
 use quell_dynamics::motion::{ContactMeans, ContactMeter, Motion, RowMeter};
 use quell_model::profile::Wave;
 use quell_model::units::{Quantity, UnitSystem};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::spectrum::{Peak, Spectrum, SpectrumError};
 use serde_json::Value as Json;
 
@@ -37,7 +38,7 @@ reasons! {
 #[derive(Clone, Debug)]
 pub struct WindowedResponse {
     /// Beginning and end of the window.
-    pub window: (f64, f64),
+    pub window: RealInterval,
     /// The observed displacement.
     pub observed: RowMeter,
     /// Time between two samples of the displacement.
@@ -54,10 +55,10 @@ pub struct WindowedResponse {
 ///
 /// # Errors
 /// A window that does not go forward; a start that does not exist; [`Failure::Failed`] if the engine stops.
-pub fn run(study: &SystemStudy, window: (f64, f64)) -> Result<WindowedResponse, Failure> {
+pub fn run(study: &SystemStudy, window: RealInterval) -> Result<WindowedResponse, Failure> {
     has_equations(study, "response --window")?;
     let (system, start) = (study.system(), start_of(study)?);
-    let (from, to) = window;
+    let RealInterval { lower: from, upper: to } = window;
     if !(from >= start.time && from < to && to.is_finite()) {
         let allowed = format!("two times A:B with {} ≤ A < B", start.time);
         return Err(Complaint::option("--window", format!("{from}:{to}"), allowed).into());
@@ -98,7 +99,7 @@ pub fn run(study: &SystemStudy, window: (f64, f64)) -> Result<WindowedResponse, 
 impl WindowedResponse {
     /// The window in one sentence.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let (from, to) = self.window;
+        let RealInterval { lower: from, upper: to } = self.window;
         let in_words = |quantity, value| in_units(study.units(), quantity, value);
         let time = |time| in_words(Quantity::Time, time);
         let length = |value| in_words(Quantity::Displacement, value);
@@ -124,8 +125,8 @@ impl WindowedResponse {
     fn put(&self, fields: &mut Fields, units: UnitSystem) {
         let line = |pick: fn(&Peak) -> f64| self.strongest.as_ref().map(pick);
         fields
-            .number("from", Quantity::Time, self.window.0)
-            .number("to", Quantity::Time, self.window.1)
+            .number("from", Quantity::Time, self.window.lower)
+            .number("to", Quantity::Time, self.window.upper)
             .number("mean", Quantity::Displacement, self.observed.mean())
             .number("rms", Quantity::Displacement, self.observed.deviation())
             .number("amplitude", Quantity::Displacement, 0.5 * self.observed.range())
@@ -143,7 +144,7 @@ impl WindowedResponse {
     /// Times and values of the displacement.
     pub fn samples(&self) -> (Vec<f64>, &[f64]) {
         let times = (0..self.observed.samples.len())
-            .map(|place| self.step.mul_add(place as f64, self.window.0));
+            .map(|place| self.step.mul_add(place as f64, self.window.lower));
         (times.collect(), &self.observed.samples)
     }
 

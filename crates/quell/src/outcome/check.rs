@@ -3,6 +3,7 @@
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{InputTarget, System};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::Presented;
@@ -80,7 +81,7 @@ fn system_table(study: &SystemStudy) -> String {
     table.word("coordinates", &format!("{}: {listed}{rest}", names.len()));
     let with = |quantity, value| figure_in_units(study.units(), quantity, value);
     let over_time = |quantity: Quantity, profile: &Profile| {
-        let (least, largest) = profile.bounds();
+        let RealInterval { lower: least, upper: largest } = profile.bounds();
         if least == largest {
             return with(quantity, least);
         }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::Presented;
@@ -89,7 +90,7 @@ fn table(study: &SystemStudy, found: &FoundMotion) -> String {
         ("displacement", Quantity::Displacement, displacements),
         ("velocity", Quantity::Velocity, rates),
     ];
-    for (name, quantity, (low, high)) in ranges {
+    for (name, quantity, RealInterval { lower: low, upper: high }) in ranges {
         row(&format!("lowest {name}"), figure(low) + &unit(Some(quantity)));
         row(&format!("highest {name}"), figure(high) + &unit(Some(quantity)));
     }

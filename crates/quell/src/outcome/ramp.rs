@@ -9,6 +9,7 @@ use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
+use crate::run::manoeuvre::VibrationLimits;
 use crate::run::ramp::Ramp;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -35,7 +36,7 @@ impl Presented<SystemSetup> for Ramp {
             let name = format!("exact: {} above", threshold.becomes);
             table.word(&name, &with(self.ramped.quantity, threshold.value));
         }
-        if let Some((begins, ends)) = self.limits() {
+        if let Some(VibrationLimits { begins_above: begins, ends_below: ends }) = self.limits() {
             table.word("vibration counts from", &with(Quantity::Displacement, begins));
             table.word("  and until below", &with(Quantity::Displacement, ends));
         }

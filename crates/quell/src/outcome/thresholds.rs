@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use quell_dynamics::orbit::ThresholdCurveEnd;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::Presented;
@@ -35,7 +36,7 @@ impl Presented<SystemSetup> for Thresholds {
 
     fn table(&self, study: &SystemStudy) -> String {
         let unit = unit_after(study.unit_of(&self.request.parameter));
-        let (from, to) = self.request.window;
+        let RealInterval { lower: from, upper: to } = self.request.window;
         let number = capital(&quantity_at(&self.request.parameter));
         let [from, to] = [from, to].map(|value| format!("{}{unit}", figure(value)));
         let mut text = format!("\n{number} from {from} to {to}, {}:\n", self.subject());
@@ -76,7 +77,7 @@ impl Presented<SystemSetup> for Thresholds {
                 protocol.words(study),
                 TRIED + 1
             );
-            let first = figure(self.request.window.0) + &unit;
+            let first = figure(self.request.window.lower) + &unit;
             let _ = writeln!(text, "  {first:<values$}{}", self.words(&switches.first));
             for change in &switches.changes {
                 let value = figure(change.value) + &unit;

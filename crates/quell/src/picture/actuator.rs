@@ -84,8 +84,11 @@ fn amplitudes(done: &ActuatorFound, rulers: &ActuatorRulers) -> Panel {
     };
     let mut panel = Panel::new(axis.clone(), force.axis("amplitude of the dither", "").log());
     for (place, band) in done.coverage.sufficient.iter().enumerate() {
-        let strip =
-            Region::across_x(PlotRole::Stable, scale.of(band.ends.0), scale.of(band.ends.1));
+        let strip = Region::across_x(
+            PlotRole::Stable,
+            scale.of(band.ends.lower),
+            scale.of(band.ends.upper),
+        );
         panel = panel.with(if place == 0 { strip.label("the actuator suffices") } else { strip });
     }
     panel = panel
@@ -113,8 +116,8 @@ fn amplitudes(done: &ActuatorFound, rulers: &ActuatorRulers) -> Panel {
     }
     let own = PlotPoint::new(scale.of(done.own.frequency), force.place(done.own_amplitude));
     if done.own_amplitude > 0.0
-        && done.range.0 <= done.own.frequency
-        && done.own.frequency <= done.range.1
+        && done.range.lower <= done.own.frequency
+        && done.own.frequency <= done.range.upper
     {
         panel = panel.with(
             Points::new(PlotRole::Dithered, vec![own])

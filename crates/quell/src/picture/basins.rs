@@ -16,6 +16,7 @@ use crate::run::system::attractor::in_words;
 use crate::study::SystemStudy;
 use quell_dynamics::attractor::MotionKind;
 use quell_dynamics::orbit::CycleSamples;
+use quell_numerics::interval::RealInterval;
 
 /// Most states of a motion that are drawn.
 const STATES: usize = 400;
@@ -45,7 +46,7 @@ pub fn basins(study: &SystemStudy, done: &Basins) -> Result<Figure, Failure> {
 
 /// An axis of the plane, and its ruler.
 fn axis(study: &SystemStudy, done: &Basins, number: usize) -> (PlotAxis, Ruler) {
-    let (from, to) = done.windows[number];
+    let RealInterval { lower: from, upper: to } = done.windows[number];
     let name = done.names[number].as_str();
     let Some(quantity) = study.system().state_quantity(done.places[number]) else {
         return (PlotAxis::new(name), Ruler::of_unit("", from.abs().max(to.abs())));
@@ -76,7 +77,10 @@ fn plane(study: &SystemStudy, done: &Basins, portrait: &Portrait) -> Result<Pane
     };
     let outcomes = portrait.basins.iter().enumerate().map(outcome);
     let inside = |state: &[f64; 2]| {
-        state.iter().zip(done.windows).all(|(value, (from, to))| (from..=to).contains(value))
+        state
+            .iter()
+            .zip(done.windows)
+            .all(|(value, RealInterval { lower: from, upper: to })| (from..=to).contains(value))
     };
     let mut over: Vec<Layer> = Vec::new();
     for basin in &portrait.basins {
@@ -138,7 +142,7 @@ fn plane(study: &SystemStudy, done: &Basins, portrait: &Portrait) -> Result<Pane
 /// The share of starts that end in step with the dither, or at rest, over the parameter.
 fn shares(study: &SystemStudy, done: &Basins) -> Panel {
     let Some(over) = &done.over else { return Panel::default() };
-    let (axis, ruler) = axis_of(study, &over.parameter, (over.from, over.to));
+    let (axis, ruler) = axis_of(study, &over.parameter, RealInterval::new(over.from, over.to));
     let local = done.portraits.iter().filter_map(|portrait| {
         let unstable = portrait.local.as_ref().is_ok_and(|verdict| *verdict == "unstable");
         Some((ruler.place(portrait.value?), unstable))

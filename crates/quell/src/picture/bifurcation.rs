@@ -2,6 +2,7 @@
 
 use quell_dynamics::attractor::SystemAttractor;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 
 use super::caption::caption_of_varied;
@@ -21,8 +22,8 @@ const MOST_STATES: usize = 16_000;
 const STATES: usize = 12;
 
 /// Intervals in which a condition holds; their ends are midpoints between neighbouring values.
-pub(super) fn intervals(values: &[(f64, bool)]) -> Vec<(f64, f64)> {
-    let mut found: Vec<(f64, f64)> = Vec::new();
+pub(super) fn intervals(values: &[(f64, bool)]) -> Vec<RealInterval> {
+    let mut found: Vec<RealInterval> = Vec::new();
     for (place, (value, holds)) in values.iter().enumerate() {
         if !holds {
             continue;
@@ -32,8 +33,8 @@ pub(super) fn intervals(values: &[(f64, bool)]) -> Vec<(f64, f64)> {
         let before = middle(place.checked_sub(1).and_then(|place| values.get(place)));
         let behind = middle(values.get(place + 1));
         match found.last_mut() {
-            Some(last) if last.1 >= before => last.1 = behind,
-            _ => found.push((before, behind)),
+            Some(last) if last.upper >= before => last.upper = behind,
+            _ => found.push(RealInterval::new(before, behind)),
         }
     }
     found
@@ -42,7 +43,7 @@ pub(super) fn intervals(values: &[(f64, bool)]) -> Vec<(f64, f64)> {
 /// The diagram.
 pub fn bifurcation(study: &SystemStudy, done: &Bifurcation) -> Figure {
     let range = &done.range;
-    let (axis, varied) = axis_of(study, &range.parameter, (range.from, range.to));
+    let (axis, varied) = axis_of(study, &range.parameter, RealInterval::new(range.from, range.to));
     let across = || axis.clone();
     let attractors = || {
         let points = done.branches.iter().flat_map(|branch| &branch.points);
@@ -60,7 +61,9 @@ pub fn bifurcation(study: &SystemStudy, done: &Bifurcation) -> Figure {
             .collect();
         ascending_by(&mut values, |a| a.0);
         let scaled = intervals(&values).into_iter();
-        scaled.map(|(from, to)| (varied.place(from), varied.place(to))).collect::<Vec<_>>()
+        scaled
+            .map(|range| RealInterval::new(varied.place(range.lower), varied.place(range.upper)))
+            .collect::<Vec<_>>()
     };
     let mut section =
         with_unstable(Panel::new(across(), place.axis("section displacement", "")), unstable());
@@ -130,11 +133,13 @@ fn sizes(branch: &Branch, varied: &Ruler, extent: &Ruler) -> Vec<Vec<PlotPoint>>
 
 #[cfg(test)]
 mod tests {
+    use quell_numerics::interval::RealInterval;
+
     use super::intervals;
 
     #[test]
     fn intervals_end_halfway_to_their_neighbours() {
         let values = [(0.0, true), (1.0, true), (2.0, false), (3.0, false), (4.0, true)];
-        assert_eq!(intervals(&values), [(0.0, 1.5), (3.5, 4.0)]);
+        assert_eq!(intervals(&values), [RealInterval::new(0.0, 1.5), RealInterval::new(3.5, 4.0)]);
     }
 }

@@ -4,6 +4,7 @@ use quell_disc::plate::PlateMode;
 use quell_disc::resonance::{Order, Waves};
 use quell_model::Disc;
 use quell_model::disc::DiscDither;
+use quell_numerics::interval::RealInterval;
 
 use super::caption::disc_caption;
 use super::undrawable;
@@ -208,7 +209,7 @@ pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
         );
     }
     let frictions: Vec<f64> = (1..=EDGES).map(|k| scale * (k as f64 / EDGES as f64)).collect();
-    panel = panel.with_all(tongues(study.disc(), (from, to), &frictions, |f| f));
+    panel = panel.with_all(tongues(study.disc(), RealInterval::new(from, to), &frictions, |f| f));
     if let Some(load) = load {
         panel = panel.with(
             ReferenceLine::horizontal(load.friction).role(PlotRole::Guide).label("this study"),
@@ -233,7 +234,7 @@ pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
 /// on the axis. Under tangential dither, the tongues of the undithered disc are those that reappear at second order.
 pub fn tongues(
     disc: &Disc,
-    (from, to): (f64, f64),
+    RealInterval { lower: from, upper: to }: RealInterval,
     frictions: &[f64],
     up: impl Fn(f64) -> f64,
 ) -> Vec<Layer> {

@@ -7,6 +7,7 @@ use quell_model::profile::{Knots, Wave};
 use quell_model::system::{InputTarget, Mechanical};
 use quell_model::units::Quantity;
 use quell_model::{Input, Profile, System};
+use quell_numerics::interval::RealInterval;
 
 use super::ruler::Ruler;
 use crate::plot::{
@@ -79,8 +80,9 @@ pub(super) fn around_response(
             .collect()
     };
     let panel = |name: &str, quantity: Quantity, profiles: &[(String, Profile)]| {
-        let largest =
-            profiles.iter().flat_map(|(_, profile)| [profile.bounds().0, profile.bounds().1]);
+        let largest = profiles
+            .iter()
+            .flat_map(|(_, profile)| [profile.bounds().lower, profile.bounds().upper]);
         let ruler = Ruler::new(study, quantity, largest);
         let lines = profiles.iter().enumerate().map(|(place, (label, profile))| {
             Polyline::new(PlotRole::Series(place), curve(profile, &ruler)).label(label.clone())
@@ -123,7 +125,7 @@ pub(super) fn around_response(
     ];
     let step = (to - from) / (samples.times.len() - 1) as f64;
     let motion = SampledMotion { start: from, step, displacement };
-    let period = natural_period(study, (from, to));
+    let period = natural_period(study, RealInterval::new(from, to));
     let own = TAU / period;
     let fastest = system.waves().map(Wave::repetition).fold(0.0, f64::max);
     let highest = if fastest <= 40.0 * own { (1.25 * fastest).max(6.0 * own) } else { 8.0 * own };

@@ -55,6 +55,7 @@ pub(crate) use window::window;
 use crate::complaint::Failure;
 use crate::output::Output;
 use crate::plot::{Figure, Fill, Panel, PlotError, PlotRole, Region};
+use quell_numerics::interval::RealInterval;
 
 /// File name extensions of the supported picture formats.
 pub const EXTENSIONS: &[&str] = &["svg", "pdf", "png"];
@@ -79,10 +80,13 @@ fn undrawable(why: PlotError) -> Failure {
 }
 
 /// Adds the intervals of a parameter in which the base response is unstable to a panel.
-fn with_unstable(panel: Panel, intervals: Vec<(f64, f64)>) -> Panel {
-    intervals.into_iter().enumerate().fold(panel, |panel, (number, (from, to))| {
-        let label = if number == 0 { "base response unstable" } else { "" };
-        let region = Region::across_x(PlotRole::Undecided, from, to).fill(Fill::Hatched);
-        panel.with(region.label(label))
-    })
+fn with_unstable(panel: Panel, intervals: Vec<RealInterval>) -> Panel {
+    intervals.into_iter().enumerate().fold(
+        panel,
+        |panel, (number, RealInterval { lower: from, upper: to })| {
+            let label = if number == 0 { "base response unstable" } else { "" };
+            let region = Region::across_x(PlotRole::Undecided, from, to).fill(Fill::Hatched);
+            panel.with(region.label(label))
+        },
+    )
 }

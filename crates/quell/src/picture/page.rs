@@ -2,13 +2,14 @@
 
 use crate::complaint::Complaint;
 use crate::plot::{CaptionPlacement, Figure, Size};
+use quell_numerics::interval::RealInterval;
 
 /// Millimetres of an inch.
 const INCH: f64 = 25.4;
 /// Units of a figure per inch.
 const UNITS_PER_INCH: f64 = 96.0;
 /// Least and largest width of a picture (mm).
-const WIDTHS: (f64, f64) = (50.0, 1000.0);
+const WIDTHS: RealInterval = RealInterval::new(50.0, 1000.0);
 
 /// Units of a width, with their lengths in mm.
 const LENGTHS: [(&str, f64); 4] = [("mm", 1.0), ("cm", 10.0), ("in", INCH), ("pt", INCH / 72.0)];
@@ -40,7 +41,7 @@ impl PictureWidth {
     pub(super) fn parse_between(
         text: &str,
         key: &'static str,
-        (least, largest): (f64, f64),
+        RealInterval { lower: least, upper: largest }: RealInterval,
     ) -> Result<Self, Box<Complaint>> {
         let trimmed = text.trim();
         let width = LENGTHS.iter().find_map(|(unit, length)| {

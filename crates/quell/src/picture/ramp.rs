@@ -1,6 +1,7 @@
 //! A slow ramp: the motion over the value of the ramp, with the exact thresholds.
 
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::caption::caption;
 use super::ruler::Ruler;
@@ -14,37 +15,28 @@ use crate::study::SystemStudy;
 /// Displacement, and vibration within one natural period, over the value of the ramp; rising and falling values apart.
 pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
     let ruler = |quantity, values: Vec<f64>| Ruler::new(study, quantity, values);
-    let (least, largest) = done.ramped.range();
+    let RealInterval { lower: least, upper: largest } = done.ramped.range();
     let across = ruler(done.ramped.quantity, vec![least, largest]);
     let place = ruler(Quantity::Displacement, done.motion.displacement.clone());
     let axis = || {
         let axis = across.axis(&done.ramped.words, "");
         axis.between(across.place(least), across.place(largest))
     };
-    let displacement = done.motion.times.iter().copied().zip(done.motion.displacement.clone());
+    let displacement =
+        PlotPoint::zip(done.motion.times.iter().copied(), done.motion.displacement.clone());
     let mut motion = with_ways(
         Panel::new(axis(), place.axis("observed displacement", "")),
         done,
-        |pieces| {
-            let points = |(time, x): (f64, f64)| {
-                PlotPoint::new(across.place(done.ramped.value(time)), place.place(x))
-            };
-            pieces.into_iter().map(points).collect()
-        },
-        displacement.collect(),
+        |at| PlotPoint::new(across.place(done.ramped.value(at.x)), place.place(at.y)),
+        displacement,
     );
     let levels = done.motion.levels();
-    let size = ruler(Quantity::Displacement, levels.iter().map(|level| level.1).collect());
+    let size = ruler(Quantity::Displacement, levels.iter().map(|at| at.level).collect());
     let mut vibration = with_ways(
         Panel::new(axis(), size.axis("slow vibration", "").from(0.0)),
         done,
-        |pieces| {
-            let points = |(time, x): (f64, f64)| {
-                PlotPoint::new(across.place(done.ramped.value(time)), size.place(x))
-            };
-            pieces.into_iter().map(points).collect()
-        },
-        levels,
+        |at| PlotPoint::new(across.place(done.ramped.value(at.x)), size.place(at.y)),
+        levels.iter().map(|at| PlotPoint::new(at.time, at.level)),
     );
     for (number, threshold) in done.thresholds.iter().flatten().enumerate() {
         let line =
@@ -61,35 +53,32 @@ pub(crate) fn ramp(study: &SystemStudy, done: &Ramp) -> Figure {
         .caption(format!("{} {}", caption(study), done.sentence(study)))
 }
 
-/// Adds values over time as one curve for each interval in which the ramp rises or falls; `to_points` places them.
+/// Adds values over time as one curve for each interval in which the ramp rises or falls; `placed` puts a value at a time on the axes.
 fn with_ways(
     panel: Panel,
     done: &Ramp,
-    to_points: impl Fn(Vec<(f64, f64)>) -> Vec<PlotPoint>,
-    values: Vec<(f64, f64)>,
+    placed: impl Fn(PlotPoint) -> PlotPoint,
+    values: impl Iterator<Item = PlotPoint>,
 ) -> Panel {
     let rises = |time: f64| {
         let (times, knots) = (done.ramped.knots.times(), done.ramped.knots.values());
         let next = times.partition_point(|knot| *knot <= time).clamp(1, times.len() - 1);
         knots[next] >= knots[next - 1]
     };
-    let mut ways: [Vec<Vec<(f64, f64)>>; 2] = Default::default();
+    let mut ways: [Vec<Vec<PlotPoint>>; 2] = Default::default();
     let mut last = None;
-    for (time, value) in values {
-        let way = usize::from(!rises(time));
+    for value in values {
+        let way = usize::from(!rises(value.x));
         if last != Some(way) {
             ways[way].push(Vec::new());
         }
         last = Some(way);
         if let Some(piece) = ways[way].last_mut() {
-            piece.push((time, value));
+            piece.push(placed(value));
         }
     }
     let looks = [(PlotRole::Series(0), "rising"), (PlotRole::Series(1), "falling")];
     let curves = ways.into_iter().zip(looks).filter(|(pieces, _)| !pieces.is_empty());
-    let curves = curves.map(|(pieces, (role, label))| {
-        let pieces: Vec<Vec<PlotPoint>> = pieces.into_iter().map(&to_points).collect();
-        Polyline::pieces(role, pieces).label(label)
-    });
+    let curves = curves.map(|(pieces, (role, label))| Polyline::pieces(role, pieces).label(label));
     panel.with_all(curves.collect::<Vec<_>>())
 }

@@ -2,6 +2,7 @@
 
 use quell_dynamics::response::SettledRecord;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::caption::caption;
 use super::ruler::{Ruler, time_between};
@@ -51,7 +52,7 @@ fn record(study: &SystemStudy, done: &MeasuredResponse, dithered: bool) -> Panel
     let shown = PERIODS_SHOWN * std::f64::consts::TAU / strongest;
     let end = done.plan.settle + done.plan.length;
     let first = (end - shown.min(done.plan.length)).max(done.plan.settle);
-    let (time, clock) = time_between(study, (first, end));
+    let (time, clock) = time_between(study, RealInterval::new(first, end));
     let values = [with, without].map(|record| record.samples.iter().copied());
     let x = Ruler::new(study, Quantity::Displacement, values.into_iter().flatten());
     let points = |record: &SettledRecord| -> Vec<PlotPoint> {

@@ -1,6 +1,7 @@
 //! Axes of quantities, with unit and metric prefix in a study in SI.
 
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use crate::plot::PlotAxis;
 use crate::study::{BeltStudy, SystemStudy, UnitSystem};
@@ -103,7 +104,10 @@ pub(super) fn words(study: &BeltStudy, quantity: Quantity, value: f64) -> String
 }
 
 /// The axis of time between two times, and its ruler.
-pub(super) fn time_between(study: &SystemStudy, (from, to): (f64, f64)) -> (PlotAxis, Ruler) {
+pub(super) fn time_between(
+    study: &SystemStudy,
+    RealInterval { lower: from, upper: to }: RealInterval,
+) -> (PlotAxis, Ruler) {
     let ruler = Ruler::new(study, Quantity::Time, [from, to]);
     let axis = ruler.axis("time", "t").between(ruler.place(from), ruler.place(to));
     (axis, ruler)

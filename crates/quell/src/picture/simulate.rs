@@ -2,6 +2,7 @@
 
 use quell_dynamics::motion::{ContactPhase, MotionSampler};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::caption::caption;
 use super::manoeuvre::around_response;
@@ -47,7 +48,7 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
     let both = || [Some(&with), without.as_ref()].into_iter().flatten();
     let places = both().flat_map(|motion| motion.displacement.iter().copied());
     let x = Ruler::new(study, Quantity::Displacement, places);
-    let (time, clock) = time_between(study, (done.start.time, done.end.time));
+    let (time, clock) = time_between(study, RealInterval::new(done.start.time, done.end.time));
     let across = x.axis("observed displacement", "");
     let over_time = |motion: &Observed| -> Vec<PlotPoint> {
         let times = motion.times.iter().map(|time| clock.place(*time));
@@ -56,9 +57,12 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
     };
     let curves = curves(study, &with, without.as_ref(), &over_time);
     let ends = both().flat_map(|motion| &motion.displacement).map(|value| x.place(*value));
-    let ends = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
-        (f64::min(least, x), f64::max(most, x))
-    });
+    let ends = ends.fold(
+        RealInterval::new(f64::INFINITY, f64::NEG_INFINITY),
+        |RealInterval { lower: least, upper: most }, x| {
+            RealInterval::new(f64::min(least, x), f64::max(most, x))
+        },
+    );
     let panel = Panel::new(time.clone(), across.clone()).with_all(curves);
     let panel = panel.with_all(bars(&done.history, &clock, ends));
     let start = done.start_in_words(study);
@@ -118,7 +122,11 @@ fn surface(study: &SystemStudy) -> Option<f64> {
 }
 
 /// A bar below the curve for every interval in which a contact sticks or is open, one line for each of the first contacts.
-fn bars(history: &EventHistory, clock: &Ruler, (least, most): (f64, f64)) -> Vec<Polyline> {
+fn bars(
+    history: &EventHistory,
+    clock: &Ruler,
+    RealInterval { lower: least, upper: most }: RealInterval,
+) -> Vec<Polyline> {
     let length = if most > least { most - least } else { 1.0 };
     let kinds = [("stick", ContactPhase::Stick, 0), ("open", ContactPhase::Open, 1)];
     let mut lines = Vec::new();

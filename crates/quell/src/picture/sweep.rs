@@ -5,6 +5,7 @@
 //! where a number is unknown; the legend shows the reason.
 
 use quell_linear::averaging::{Averaging, Becomes};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 
 use super::caption::{VariedNumber, caption_of, with_varied};
@@ -189,7 +190,7 @@ fn exact_curves(done: &FinishedMap) -> Vec<Layer> {
         let ends = |axis: &GridAxis| {
             let values = axis.values.iter().copied();
             let least = values.clone().fold(f64::INFINITY, f64::min);
-            (least, values.fold(f64::NEG_INFINITY, f64::max))
+            RealInterval::new(least, values.fold(f64::NEG_INFINITY, f64::max))
         };
         let request = CurvesRequest {
             parameter: second.path.clone(),
@@ -284,7 +285,12 @@ fn over_disc(grid: &Grid, study: &DiscStudy) -> Vec<Layer> {
     }
     let least = speed.values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = speed.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    super::disc::tongues(study.disc(), (least, most), &friction.values, |friction| friction)
+    super::disc::tongues(
+        study.disc(),
+        RealInterval::new(least, most),
+        &friction.values,
+        |friction| friction,
+    )
 }
 
 /// The role of one of several words: the two of a verdict have theirs, more of them differ in colour.

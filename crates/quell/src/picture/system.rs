@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 
 use super::frame::filled;
@@ -41,7 +42,7 @@ pub(super) fn growth_axis(study: &SystemStudy) -> PlotAxis {
 pub(super) fn axis_of(
     study: &SystemStudy,
     path: &str,
-    (from, to): (f64, f64),
+    RealInterval { lower: from, upper: to }: RealInterval,
 ) -> (PlotAxis, Ruler) {
     let ruler = Ruler::of_path(study, path, from.abs().max(to.abs()));
     // The unit of a key such as `amplitude_n` is that of the axis.
@@ -71,8 +72,8 @@ fn lowest_rate(done: &TrackedStability) -> Option<f64> {
 /// Frequency and growth rate of every motion over the parameter, with the thresholds.
 pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
     let (frequency, factor) = frequency_axis(study, "|Im λ|");
-    let (from, to) = done.request.window;
-    let (axis, ruler) = axis_of(study, &done.request.parameter, (from, to));
+    let RealInterval { lower: from, upper: to } = done.request.window;
+    let (axis, ruler) = axis_of(study, &done.request.parameter, RealInterval::new(from, to));
     let across = || axis.clone();
     let branches = |pick: &dyn Fn(&num_complex::Complex64) -> Option<f64>| -> Vec<Vec<PlotPoint>> {
         let mut lines: BTreeMap<(usize, usize), Vec<PlotPoint>> = BTreeMap::new();
@@ -127,8 +128,8 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
         .with(Polyline::pieces(role, rates));
     let below = marked(below, &|z| z.re).title("(b) growth rate");
     let mut panels = vec![above, below];
-    if let Some((along, (first, last))) = &done.request.along {
-        let (second, second_ruler) = axis_of(study, along, (*first, *last));
+    if let Some((along, RealInterval { lower: first, upper: last })) = &done.request.along {
+        let (second, second_ruler) = axis_of(study, along, RealInterval::new(*first, *last));
         let mut panel = Panel::new(second, across());
         for (kind, changes) in [(PlotRole::Boundary, true), (PlotRole::Guide, false)] {
             let of_kind = done.curves.iter().filter(|curve| {

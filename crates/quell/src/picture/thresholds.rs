@@ -12,14 +12,15 @@ use crate::run::thresholds::Thresholds;
 use crate::run::thresholds::curves::{AveragedBoundary, Curves};
 use crate::study::SystemStudy;
 use quell_dynamics::orbit::{ThresholdCurve, ThresholdKind};
+use quell_numerics::interval::RealInterval;
 
 /// Minimum jump of the multiplier between neighbouring points with different events that counts as grazing.
 const JUMP: f64 = 0.05;
 
 /// The picture of the thresholds of one parameter.
 pub fn thresholds(study: &SystemStudy, done: &Thresholds) -> Figure {
-    let (from, to) = done.request.window;
-    let (across, ruler) = axis_of(study, &done.request.parameter, (from, to));
+    let RealInterval { lower: from, upper: to } = done.request.window;
+    let (across, ruler) = axis_of(study, &done.request.parameter, RealInterval::new(from, to));
     let branch = done.local.as_ref().map_or(&[][..], |local| &local.branch);
     // The multipliers jump at grazing, and the curve has a gap there.
     let mut pieces: Vec<Vec<PlotPoint>> = vec![Vec::new()];
@@ -93,8 +94,8 @@ pub fn curves(study: &SystemStudy, done: &Curves) -> Figure {
             caption_of_varied(
                 study,
                 &[
-                    (request.along.as_str().into(), request.between.0, request.between.1),
-                    (request.parameter.as_str().into(), request.window.0, request.window.1),
+                    (request.along.as_str().into(), request.between.lower, request.between.upper),
+                    (request.parameter.as_str().into(), request.window.lower, request.window.upper),
                 ]
             )
         ))

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use quell_model::parameter::indexed;
 use quell_model::system::Input;
+use quell_numerics::interval::RealInterval;
 
 use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;
@@ -125,8 +126,8 @@ pub(super) fn amplitude_of(input: &Input) -> f64 {
 /// Thresholds of an amplitude from no dither up to the limit of the verb, of one without such a limit up to twice its value.
 fn thresholds(study: &SystemStudy, path: &str, input: &Input) -> ReportStep {
     let window = window_of(study, path, (None, None), None);
-    let window = window.unwrap_or_else(|_| (0.0, 2.0 * amplitude_of(input)));
-    let (parameter, (from, to)) = (path.to_owned(), window);
+    let window = window.unwrap_or_else(|_| RealInterval::new(0.0, 2.0 * amplitude_of(input)));
+    let (parameter, RealInterval { lower: from, upper: to }) = (path.to_owned(), window);
     let request = ThresholdsRequest { parameter, window, ..ThresholdsRequest::default() };
     let heading = "Amplitudes that change the outcome";
     let ask = move |verbs: &Verbs| verbs.thresholds(&request);

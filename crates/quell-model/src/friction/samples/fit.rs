@@ -18,6 +18,7 @@
 
 use std::fmt::Write as _;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::least_squares::least_squares;
 
 /// Maximum number of terms; more terms are slower and fit noise.
@@ -65,7 +66,7 @@ pub struct Fit {
     /// Number of samples.
     pub samples: usize,
     /// Smallest and largest slip speed of the samples.
-    pub range: (f64, f64),
+    pub range: RealInterval,
 }
 
 impl Fit {
@@ -169,7 +170,7 @@ impl Problem<'_> {
             left_out_error: rms(left_out.sum()),
             pinned: self.pin.is_some(),
             samples: self.samples.len(),
-            range: (low, high),
+            range: RealInterval::new(low, high),
         })
     }
 

@@ -9,6 +9,7 @@
 
 use std::sync::Arc;
 
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending;
 
 use super::numeric::not_a_number_of;
@@ -127,7 +128,7 @@ impl Samples {
         let level =
             static_coefficient.map(|level| if fit.pinned { level.max(fit.start()) } else { level });
         let curve = Expression::new(&fit.formula(), &[], level, velocity_unit)
-            .and_then(|curve| curve.proven_up_to(fit.range.1 * velocity_unit))
+            .and_then(|curve| curve.proven_up_to(fit.range.upper * velocity_unit))
             .map_err(of_samples)?;
         Ok(Self { curve, fit: Arc::new(fit) })
     }
@@ -180,7 +181,7 @@ impl SlidingLaw for Samples {
 
     /// Slip beyond the samples causes a warning; the trend of the fit is proven there as well.
     fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
-        let data = self.fit.range.1 * self.curve.velocity_unit();
+        let data = self.fit.range.upper * self.curve.velocity_unit();
         let speed = data.max(super::expression::MULTIPLE * surroundings.slip);
         let curve = self.curve.proven_up_to(speed).map_err(of_samples)?;
         Ok(Self { curve, fit: Arc::clone(&self.fit) })
@@ -188,7 +189,7 @@ impl SlidingLaw for Samples {
 
     fn range(&self) -> Option<SlipRange> {
         let unit = self.curve.velocity_unit();
-        let (lower, upper) = self.fit.range;
+        let RealInterval { lower, upper } = self.fit.range;
         // Held at the static level, the fit runs from rest to the first sample.
         let lower = if self.fit.pinned { 0.0 } else { lower };
         Some(SlipRange { lower: lower * unit, upper: upper * unit, limit: RangeLimit::Samples })

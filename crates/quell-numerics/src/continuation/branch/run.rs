@@ -124,7 +124,7 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
     /// The parameter at a fraction of the window; exact at both ends.
     pub(super) fn value(&self, share: f64) -> f64 {
         let Follow { from, to, .. } = self.follow;
-        arc::value((from, to), share)
+        if share == 1.0 { to } else { (to - from).mul_add(share, from) }
     }
 
     pub(super) fn scaled(&self, state: &[f64], share: f64) -> Vec<f64> {

@@ -12,6 +12,7 @@ use quell_model::parameter::system::{
 };
 use quell_model::profile::Profile;
 use quell_model::{Contact, Friction, LawKind};
+use quell_numerics::interval::RealInterval;
 
 use super::names::{MOST_COORDINATES, NAME, is_plain_name};
 use super::rows::{RowBasis, SameBasis};
@@ -227,7 +228,7 @@ fn one(
     // Negative friction is friction of a surface that moves in the other direction; it exists only without a tangent,
     // where the slip velocity is that of the surface.
     let velocity = if reversed { velocity.reversed() } else { velocity };
-    let (least, most) = velocity.bounds();
+    let RealInterval { lower: least, upper: most } = velocity.bounds();
     let fastest = least.abs().max(most.abs());
     let load = load?.or(own_load.map(Profile::constant))?;
     let steady = load.value(0.0);
@@ -295,7 +296,7 @@ fn over_time(
 
 /// Reports a load over time that reaches zero; a constant one has bounds.
 fn stays_loaded(reader: &mut Reader, table: &Table, prefix: &str, load: &Profile) {
-    let (least, _) = load.bounds();
+    let RealInterval { lower: least, .. } = load.bounds();
     if let Some(node) = table.get("load").filter(|_| least <= 0.0) {
         let key = join(prefix, "load");
         let allowed = "such that the load stays greater than 0: without load there is no contact";

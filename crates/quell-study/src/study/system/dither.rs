@@ -453,7 +453,7 @@ pub(super) fn lifted(
 ) -> Option<String> {
     // The engine of one mass takes a load that touches zero.
     let may_touch = contacts == 1 && coordinates == 1;
-    let least = contact.load().bounds().0;
+    let least = contact.load().bounds().lower;
     let is_too_much = peaks > least || (peaks == least && !may_touch);
     let few = if may_touch { "at most" } else { "less than" };
     (contact.normal.is_none() && is_too_much).then(|| {

@@ -3,6 +3,7 @@
 
 use quell_model::Waveform;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 /// How the size of a periodic signal is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +23,7 @@ impl SignalMeasure {
             Self::Peak => Some(1.0),
             Self::RootMeanSquare => Some(waveform.root_mean_square()),
             Self::PeakToPeak => waveform.is_periodic().then(|| {
-                let (least, largest) = waveform.range();
+                let RealInterval { lower: least, upper: largest } = waveform.range();
                 largest - least
             }),
         }

@@ -4,6 +4,7 @@ use quell_design::NoAnswer;
 use quell_design::actuator::{ActuatorAtFrequency, ActuatorLimit, SufficientBand};
 use quell_dynamics::response::BAND_END;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::ActuatorFound;
@@ -34,7 +35,10 @@ fn limit_in_words(limit: Option<ActuatorLimit>) -> String {
 }
 
 /// A range of frequencies with its unit.
-fn range_in_words(study: &SystemStudy, (from, to): (f64, f64)) -> String {
+fn range_in_words(
+    study: &SystemStudy,
+    RealInterval { lower: from, upper: to }: RealInterval,
+) -> String {
     let scale = study.frequency_scale();
     format!("{} to {}{}", more_digits(scale.of(from)), more_digits(scale.of(to)), scale.unit)
 }
@@ -152,8 +156,8 @@ impl ActuatorFound {
         let Some(slow) = self.slow_dither() else { return String::new() };
         let (holds_from, sure_from) = (BAND_END * slow, FAR * slow);
         let scale = study.frequency_scale();
-        let unsure = self.coverage.sufficient.iter().any(|band| band.ends.0 < sure_from);
-        match (self.range.0 < holds_from, unsure) {
+        let unsure = self.coverage.sufficient.iter().any(|band| band.ends.lower < sure_from);
+        match (self.range.lower < holds_from, unsure) {
             (false, false) => String::new(),
             (true, _) => format!(", which does not hold below {}", scale.with_noun(holds_from)),
             (false, true) => format!(", which is unsure below {}", scale.with_noun(sure_from)),
@@ -179,15 +183,15 @@ impl ActuatorFound {
             Some(point.frequency * point.demand.as_ref().ok()?.samples_per_period?)
         });
         let few_from = rate.map(|rate| rate / FEW_SAMPLES);
-        if let Some(few_from) = few_from.filter(|few| *few < self.range.1) {
+        if let Some(few_from) = few_from.filter(|few| *few < self.range.upper) {
             warnings.push(format!(
                 "from {} on the controller has fewer than {} samples in a period of the dither, so that the force is a staircase: \
                  waveform \"samples\" with hold = \"zero\" describes it",
-                scale.with_noun(f64::max(few_from, self.range.0)),
+                scale.with_noun(f64::max(few_from, self.range.lower)),
                 digits(FEW_SAMPLES)
             ));
         }
-        if let Some(slow) = self.slow_dither().filter(|slow| self.range.0 < FAR * slow) {
+        if let Some(slow) = self.slow_dither().filter(|slow| self.range.lower < FAR * slow) {
             warnings.push(format!(
                 "below {} the dither repeats at less than {} times the frequency of the vibration: averaging assumes that it is much \
                  faster, and near the vibration itself the least amplitude is that of a resonance, which excites and does not quench",
@@ -210,8 +214,8 @@ impl ActuatorFound {
             .plain("waveform", self.waveform.name())
             .plain("can_quench", !self.coverage.sufficient.is_empty())
             .plain("quiet_without", self.is_quiet_without())
-            .number("from", Quantity::FrequencyRatio, self.range.0)
-            .number("to", Quantity::FrequencyRatio, self.range.1);
+            .number("from", Quantity::FrequencyRatio, self.range.lower)
+            .number("to", Quantity::FrequencyRatio, self.range.upper);
         let sufficient = self.coverage.sufficient.iter();
         let sufficient: Vec<Fields> =
             sufficient.map(|band| self.band_fields(study, band)).collect();
@@ -233,10 +237,10 @@ impl ActuatorFound {
         fields.nested("own", own);
         let binding = self.coverage.binding.iter().map(|band| {
             let mut inner = study.fields();
-            inner.number("from", Quantity::FrequencyRatio, band.ends.0).number(
+            inner.number("from", Quantity::FrequencyRatio, band.ends.lower).number(
                 "to",
                 Quantity::FrequencyRatio,
-                band.ends.1,
+                band.ends.upper,
             );
             let limit = band.limit.ok_or_else(|| self.why_unknown(band.ends));
             inner.known_plain("limit", limit.map(ActuatorLimit::path));
@@ -263,7 +267,7 @@ impl ActuatorFound {
     }
 
     /// Why the largest amplitude is unknown between two frequencies.
-    fn why_unknown(&self, (from, to): (f64, f64)) -> String {
+    fn why_unknown(&self, RealInterval { lower: from, upper: to }: RealInterval) -> String {
         let inside =
             |point: &&ActuatorAtFrequency| from <= point.frequency && point.frequency <= to;
         let why = self.coverage.points.iter().filter(inside).find_map(|point| point.reach().err());
@@ -273,8 +277,8 @@ impl ActuatorFound {
     fn band_fields(&self, study: &SystemStudy, band: &SufficientBand) -> Fields {
         let mut inner = study.fields();
         inner
-            .number("from", Quantity::FrequencyRatio, band.ends.0)
-            .number("to", Quantity::FrequencyRatio, band.ends.1)
+            .number("from", Quantity::FrequencyRatio, band.ends.lower)
+            .number("to", Quantity::FrequencyRatio, band.ends.upper)
             .plain("narrow", band.is_narrow())
             .nested("best", self.fields_at(study, &band.best, false));
         inner

@@ -18,6 +18,7 @@ use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
 use quell_model::parameter::BELT_VELOCITY;
 use quell_model::profile::Wave;
 use quell_model::{Contact, RefusedNumbers, System, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::{ascending, ascending_by};
 use serde_json::Value as Json;
 
@@ -38,7 +39,7 @@ use crate::study::SystemStudy;
 const SAMPLES: usize = 401;
 
 /// The default range in multiples of the study's own frequency.
-const DEFAULT_RANGE: (f64, f64) = (0.1, 10.0);
+const DEFAULT_RANGE: RealInterval = RealInterval::new(0.1, 10.0);
 
 /// An actuator over frequency.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +53,7 @@ pub struct ActuatorFound {
     /// The study's amplitude.
     pub own_amplitude: f64,
     /// The range of frequencies.
-    pub range: (f64, f64),
+    pub range: RealInterval,
     /// The waveform of the dither.
     pub waveform: Waveform,
     /// The table of the dither.
@@ -75,7 +76,7 @@ impl ActuatorFound {
 /// # Errors
 /// A complaint about a study without `[actuator]`, dither or equations, about surfaces at rest, about the range, and about a contact with
 /// a state; a dither whose demand is unknown at every frequency.
-pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFound, Failure> {
+pub fn run(study: &SystemStudy, range: Option<RealInterval>) -> Result<ActuatorFound, Failure> {
     has_equations(study, "actuator")?;
     let system = study.system();
     refused_where_averaged(study, "actuator")?;
@@ -188,26 +189,29 @@ fn failed(why: impl std::fmt::Display) -> Failure {
 }
 
 /// The measured range of a frequency response; else around the study's own frequency, above the vibration itself.
-fn default_range(actuator: &Actuator, wave: &Wave, slow: Option<f64>) -> (f64, f64) {
+fn default_range(actuator: &Actuator, wave: &Wave, slow: Option<f64>) -> RealInterval {
     let measured = actuator.measured_frequencies();
     if let [first, .., last] = measured {
-        return (*first, *last);
+        return RealInterval::new(*first, *last);
     }
     let own = wave.frequency;
     let slow = slow.map_or(0.0, |slow| slow * f64::from(wave.waveform.cycles()));
     let from = if own > FAR * slow {
-        f64::max(DEFAULT_RANGE.0 * own, FAR * slow)
+        f64::max(DEFAULT_RANGE.lower * own, FAR * slow)
     } else if own > slow {
         // Halfway from the vibration to a dither that is hardly faster.
         libm::sqrt(slow * own)
     } else {
-        DEFAULT_RANGE.0 * own
+        DEFAULT_RANGE.lower * own
     };
-    (from, DEFAULT_RANGE.1 * own)
+    RealInterval::new(from, DEFAULT_RANGE.upper * own)
 }
 
 /// The frequencies of the samples: even ones, and special ones between them.
-fn sampled((from, to): (f64, f64), special: impl Iterator<Item = f64>) -> Vec<f64> {
+fn sampled(
+    RealInterval { lower: from, upper: to }: RealInterval,
+    special: impl Iterator<Item = f64>,
+) -> Vec<f64> {
     let ratio = libm::log(to / from);
     let last = SAMPLES - 1;
     let even = (0..SAMPLES).map(|k| match k {
@@ -251,7 +255,7 @@ fn without_poles(
 fn notable(
     found: &ActuatorCoverage,
     own: &ActuatorAtFrequency,
-    (from, to): (f64, f64),
+    RealInterval { lower: from, upper: to }: RealInterval,
     at: &dyn Fn(f64) -> ActuatorAtFrequency,
 ) -> Vec<(String, ActuatorAtFrequency)> {
     let mut places: Vec<(String, ActuatorAtFrequency)> =
@@ -266,7 +270,7 @@ fn notable(
         (format!("{} → {}", name(limits[0]), name(limits[1])), at(frequency))
     }));
     for band in &found.sufficient {
-        for (end, word) in [(band.ends.0, "from here"), (band.ends.1, "up to here")] {
+        for (end, word) in [(band.ends.lower, "from here"), (band.ends.upper, "up to here")] {
             if end > from && end < to {
                 places.push((format!("sufficient {word}"), at(end)));
             }

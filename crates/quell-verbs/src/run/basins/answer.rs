@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::{Basins, Portrait, Share};
@@ -198,7 +199,7 @@ impl Basins {
     pub fn starts_in_words(&self, study: &SystemStudy) -> String {
         let axes = [0, 1].map(|axis| {
             let unit = unit_after(Some(self.unit(study, axis)));
-            let (from, to) = self.windows[axis];
+            let RealInterval { lower: from, upper: to } = self.windows[axis];
             format!("{} from {} to {}{unit}", self.names[axis], digits(from), digits(to))
         });
         format!("{}, {}", self.layout.words(), axes.join(", "))
@@ -257,7 +258,8 @@ impl Basins {
             [0, 1].map(|axis| self.starts.iter().map(|start| start[axis]).collect())
         });
         for (axis, (name, values)) in ["across", "up"].into_iter().zip(columns).enumerate() {
-            let (unit, (from, to)) = (self.unit(study, axis), self.windows[axis]);
+            let (unit, RealInterval { lower: from, upper: to }) =
+                (self.unit(study, axis), self.windows[axis]);
             fields.measured(name, unit, values);
             let window = ["window_across", "window_up"][axis];
             fields.measured(window, unit, vec![from, to]);

@@ -22,6 +22,7 @@ use quell_dynamics::attractor::{
 };
 use quell_dynamics::response::dither_reaches_the_band;
 use quell_dynamics::simulation::within;
+use quell_numerics::interval::RealInterval;
 
 use super::protocol::Protocol;
 use super::slip::SlipReached;
@@ -107,7 +108,7 @@ pub struct Basins {
     /// Their places in the state.
     pub places: [usize; 2],
     /// Least and largest value of each axis.
-    pub windows: [(f64, f64); 2],
+    pub windows: [RealInterval; 2],
     /// Layout of the starts.
     pub layout: StartLayout,
     /// The values of both axes at each start; on a grid the first axis runs fastest.
@@ -129,7 +130,11 @@ fn values(
     let Some(Range { parameter, from, to, points }) = over else { return Ok(vec![None]) };
     understood(
         study,
-        &TrackRequest { parameter: parameter.clone(), window: (*from, *to), along: None },
+        &TrackRequest {
+            parameter: parameter.clone(),
+            window: RealInterval::new(*from, *to),
+            along: None,
+        },
     )
     .map_err(|why| renamed(why, "--parameter", "--over"))?;
     if !(2..=MOST_VALUES).contains(points) {
@@ -142,7 +147,7 @@ fn values(
         );
         return Err(Complaint::option("--points", *points, allowed).into());
     }
-    Ok(evenly((*from, *to), *points).into_iter().map(Some).collect())
+    Ok(evenly(RealInterval::new(*from, *to), *points).into_iter().map(Some).collect())
 }
 
 /// Complaints about one option as those about another.

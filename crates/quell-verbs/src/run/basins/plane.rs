@@ -3,6 +3,7 @@
 use quell_dynamics::orbit::sliding_state;
 use quell_dynamics::response::vibration_frequency;
 use quell_model::System;
+use quell_numerics::interval::RealInterval;
 
 use super::StartLayout;
 use crate::complaint::{Complaint, Complaints, Failure};
@@ -16,7 +17,7 @@ pub struct PlaneAxis {
     /// Name of the number of the state.
     pub name: String,
     /// Its least and largest value; derived from the system if `None`.
-    pub window: Option<(f64, f64)>,
+    pub window: Option<RealInterval>,
 }
 
 /// The places of the axes in the state.
@@ -36,7 +37,7 @@ pub(super) fn places(
                 complaint.suggesting(nearest::word(&axis.name, names.iter().map(String::as_str))),
             );
         }
-        if let Some((from, to)) = axis.window
+        if let Some(RealInterval { lower: from, upper: to }) = axis.window
             && !(from.is_finite() && to.is_finite() && from < to)
         {
             let allowed = "FROM:TO, two finite numbers, the first below the second";
@@ -57,7 +58,7 @@ pub(super) fn places(
 /// displacement of steady sliding, or one and a half times what the fastest surface covers in 1/ω of the vibration; that of a velocity is
 /// this reach, or a fifth of the displacement, times ω. Where nothing vibrates ω is 1 in the units of the study: the window is printed, and
 /// given with `--plane` where it does not suit.
-pub(super) fn window(system: &System, start: &[f64], place: usize) -> (f64, f64) {
+pub(super) fn window(system: &System, start: &[f64], place: usize) -> RealInterval {
     let size = system.structure.size();
     let is_velocity = system.structure.mechanical().is_some() && place >= size;
     let state = sliding_state(system).unwrap_or_else(|_| start.to_vec());
@@ -77,7 +78,7 @@ pub(super) fn window(system: &System, start: &[f64], place: usize) -> (f64, f64)
         if is_velocity { rate * reach } else { reach.max(largest) }
     };
     let reach = if reach > 0.0 { reach } else { 1.0 };
-    (state[place] - reach, state[place] + reach)
+    RealInterval::new(state[place] - reach, state[place] + reach)
 }
 
 /// The plane of the first displacement and its velocity, with windows where they are given.
@@ -86,7 +87,7 @@ pub(super) fn window(system: &System, start: &[f64], place: usize) -> (f64, f64)
 /// First-order equations with a single number, which have no plane.
 pub fn default_plane(
     study: &SystemStudy,
-    [across, up]: [Option<(f64, f64)>; 2],
+    [across, up]: [Option<RealInterval>; 2],
 ) -> Result<[PlaneAxis; 2], Failure> {
     let names = study.system().state_names();
     let size = study.system().structure.size();
@@ -118,7 +119,7 @@ pub fn read_plane(study: &SystemStudy, text: &str) -> Result<[PlaneAxis; 2], Com
             let allowed = "NAME=FROM:TO, such as x=-1:1";
             return Err(Box::new(Complaint::option(option, part, allowed)));
         };
-        Ok(PlaneAxis { name, window: Some((read(from)?, read(to)?)) })
+        Ok(PlaneAxis { name, window: Some(RealInterval::new(read(from)?, read(to)?)) })
     };
     let Some((first, second)) = text.split_once(',').filter(|(_, rest)| !rest.contains(',')) else {
         let allowed = "two names of the state, such as x,velocity.x or x=-1:1,velocity.x=-2:2";

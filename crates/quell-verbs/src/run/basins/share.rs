@@ -6,6 +6,7 @@
 //! these halves. A part of the basin that is smaller than a cell is missed, and not covered by the bounds.
 
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::starts::StartLayout;
 use crate::fields::Fields;
@@ -32,11 +33,14 @@ impl Share {
         let starts = inside.iter().filter(|holds| **holds).count();
         let count = inside.len().max(1) as f64;
         let fraction = starts as f64 / count;
-        let (low, high) = match layout {
+        let RealInterval { lower: low, upper: high } = match layout {
             StartLayout::Sample { .. } => wilson(fraction, count),
             StartLayout::Grid { columns, .. } => {
                 let (inner, outer) = border(inside, columns);
-                (fraction - 0.5 * inner as f64 / count, fraction + 0.5 * outer as f64 / count)
+                RealInterval::new(
+                    fraction - 0.5 * inner as f64 / count,
+                    fraction + 0.5 * outer as f64 / count,
+                )
             }
         };
         Self { starts, fraction, low, high }
@@ -88,7 +92,7 @@ impl Share {
 }
 
 /// Wilson's score interval.
-fn wilson(fraction: f64, count: f64) -> (f64, f64) {
+fn wilson(fraction: f64, count: f64) -> RealInterval {
     let square = Z * Z / count;
     let centre = (fraction + 0.5 * square) / (1.0 + square);
     let reach =
@@ -96,7 +100,7 @@ fn wilson(fraction: f64, count: f64) -> (f64, f64) {
     // Both ends are exact where rounding of the root would miss them.
     let low = if fraction == 0.0 { 0.0 } else { (centre - reach).max(0.0) };
     let high = if fraction == 1.0 { 1.0 } else { (centre + reach).min(1.0) };
-    (low, high)
+    RealInterval::new(low, high)
 }
 
 /// Number of starts inside with a neighbour outside, and of those outside with a neighbour inside.
@@ -124,10 +128,10 @@ mod tests {
     #[test]
     fn wilson_has_its_known_values() {
         // 81 of 263 (Newcombe, 1998, table I): 0.2553 to 0.3662.
-        let (low, high) = wilson(81.0 / 263.0, 263.0);
+        let RealInterval { lower: low, upper: high } = wilson(81.0 / 263.0, 263.0);
         assert!((low - 0.2553).abs() < 5e-5 && (high - 0.3662).abs() < 5e-5, "{low} {high}");
         // None of 20: 0 to 0.1611.
-        let (low, high) = wilson(0.0, 20.0);
+        let RealInterval { lower: low, upper: high } = wilson(0.0, 20.0);
         assert!(low == 0.0 && (high - 0.1611).abs() < 5e-5, "{low} {high}");
     }
 

@@ -1,5 +1,6 @@
 //! The layout of the starts in a window of two numbers of the state.
 
+use quell_numerics::interval::RealInterval;
 use serde_json::{Value as Json, json};
 
 use super::super::evenly;
@@ -49,7 +50,7 @@ impl StartLayout {
     }
 
     /// The starts in a window of two numbers; on a grid the first number runs fastest.
-    pub(in crate::run) fn places(self, [across, upwards]: [(f64, f64); 2]) -> Vec<[f64; 2]> {
+    pub(in crate::run) fn places(self, [across, upwards]: [RealInterval; 2]) -> Vec<[f64; 2]> {
         match self {
             Self::Grid { columns, rows } => {
                 let across = evenly(across, columns);
@@ -58,14 +59,15 @@ impl StartLayout {
             }
             Self::Sample { count, seed } => {
                 let mut state = seed;
-                let mut between = |(from, to): (f64, f64)| from + (to - from) * uniform(&mut state);
+                let mut between =
+                    |range: RealInterval| range.lower + range.width() * uniform(&mut state);
                 (0..count).map(|_| [between(across), between(upwards)]).collect()
             }
         }
     }
 
     /// The values of both axes of a grid.
-    pub fn axes(self, [across, upwards]: [(f64, f64); 2]) -> Option<[Vec<f64>; 2]> {
+    pub fn axes(self, [across, upwards]: [RealInterval; 2]) -> Option<[Vec<f64>; 2]> {
         match self {
             Self::Grid { columns, rows } => Some([evenly(across, columns), evenly(upwards, rows)]),
             Self::Sample { .. } => None,
@@ -130,8 +132,9 @@ mod tests {
 
     #[test]
     fn a_grid_reaches_its_edges() {
-        assert_eq!(evenly((-1.0, 1.5), 11)[10], 1.5);
-        let places = StartLayout::Grid { columns: 3, rows: 2 }.places([(0.0, 1.0), (2.0, 3.0)]);
+        assert_eq!(evenly(RealInterval::new(-1.0, 1.5), 11)[10], 1.5);
+        let places = StartLayout::Grid { columns: 3, rows: 2 }
+            .places([RealInterval::new(0.0, 1.0), RealInterval::new(2.0, 3.0)]);
         let row = |v: f64| [[0.0, v], [0.5, v], [1.0, v]];
         assert_eq!(places, [row(2.0), row(3.0)].concat());
     }

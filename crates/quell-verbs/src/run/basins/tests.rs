@@ -36,9 +36,9 @@ fn unknown_ends_reach_nothing() {
     let found = |over: Option<Range>, portraits: Vec<Portrait>| Basins {
         names: ["x", "velocity.x"].map(str::to_owned),
         places: [0, 1],
-        windows: [(0.0, 1.0); 2],
+        windows: [RealInterval::new(0.0, 1.0); 2],
         layout,
-        starts: layout.places([(0.0, 1.0); 2]),
+        starts: layout.places([RealInterval::new(0.0, 1.0); 2]),
         start: "from rest".to_owned(),
         over,
         portraits,

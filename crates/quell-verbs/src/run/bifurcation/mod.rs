@@ -8,6 +8,7 @@ use std::sync::atomic::Ordering;
 
 use quell_dynamics::attractor::{EndOfRun, MotionKind, NoEnd, SystemAttractor, end_of_run};
 use quell_dynamics::simulation::within;
+use quell_numerics::interval::RealInterval;
 
 use super::protocol::Protocol;
 use super::system::attractor::{NoLocalVerdict, local_verdict};
@@ -70,13 +71,13 @@ pub struct Bifurcation {
     /// The sweeps, up before down.
     pub branches: Vec<Branch>,
     /// First and last value of each range in which the two directions show different motions.
-    pub hysteresis: Vec<(f64, f64)>,
+    pub hysteresis: Vec<RealInterval>,
 }
 
 /// Checks the request.
 fn checked(study: &SystemStudy, range: &Range) -> Result<(), Failure> {
     has_equations(study, "bifurcation")?;
-    let window = (range.from, range.to);
+    let window = RealInterval::new(range.from, range.to);
     let parameter = range.parameter.clone();
     let mut wrong: Vec<Complaint> = Vec::new();
     match understood(study, &TrackRequest { parameter, window, along: None }) {
@@ -90,7 +91,7 @@ fn checked(study: &SystemStudy, range: &Range) -> Result<(), Failure> {
     if !wrong.is_empty() {
         return Err(wrong.into());
     }
-    ends_are_valid(study, &range.parameter, (range.from, range.to))
+    ends_are_valid(study, &range.parameter, window)
 }
 
 /// Sweeps a study.
@@ -105,7 +106,7 @@ pub fn run(
     let range = &request.range;
     checked(study, range)?;
     let directions = directions(request);
-    let values = evenly((range.from, range.to), range.points);
+    let values = evenly(RealInterval::new(range.from, range.to), range.points);
     running.progress.begin(values.len() * directions.len(), 0);
     let parameter = study.model().parameter(&range.parameter)?;
     let mut state: Option<Vec<f64>> = None;
@@ -159,7 +160,7 @@ fn point(
 }
 
 /// Ranges in which both directions were swept and show different motions.
-fn hysteresis(branches: &[Branch]) -> Vec<(f64, f64)> {
+fn hysteresis(branches: &[Branch]) -> Vec<RealInterval> {
     let [up, down] = branches else { return Vec::new() };
     let pairs = up.points.iter().zip(down.points.iter().rev());
     ranges(pairs.map(|(one, other)| {

@@ -1,5 +1,6 @@
 //! Of sweeps: directions, jumps, and ranges in which the two directions differ.
 
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use crate::fields::Fields;
@@ -52,13 +53,13 @@ pub(super) fn changes(quiet: impl Iterator<Item = Option<bool>>) -> Vec<(usize, 
 }
 
 /// First and last value of each range of neighbouring values at which both directions differ.
-pub(super) fn ranges(apart: impl Iterator<Item = (f64, bool)>) -> Vec<(f64, f64)> {
-    let mut ranges: Vec<(f64, f64)> = Vec::new();
+pub(super) fn ranges(apart: impl Iterator<Item = (f64, bool)>) -> Vec<RealInterval> {
+    let mut ranges: Vec<RealInterval> = Vec::new();
     let mut open = false;
     for (value, apart) in apart {
         match (apart, ranges.last_mut()) {
-            (true, Some(last)) if open => last.1 = value,
-            (true, _) => ranges.push((value, value)),
+            (true, Some(last)) if open => last.upper = value,
+            (true, _) => ranges.push(RealInterval::new(value, value)),
             (false, _) => {}
         }
         open = apart;
@@ -69,13 +70,13 @@ pub(super) fn ranges(apart: impl Iterator<Item = (f64, bool)>) -> Vec<(f64, f64)
 /// The sentence on hysteresis; `known` says at each value whether both directions have a known motion. `noun` is the plural of
 /// what a sweep is on.
 pub(super) fn hysteresis_sentence(
-    ranges: &[(f64, f64)],
+    ranges: &[RealInterval],
     known: &[bool],
     noun: &str,
     value: impl Fn(f64) -> String,
 ) -> String {
     if !ranges.is_empty() {
-        let parts = ranges.iter().map(|(from, to)| {
+        let parts = ranges.iter().map(|RealInterval { lower: from, upper: to }| {
             if from == to {
                 format!("at {}", value(*from))
             } else {
@@ -100,12 +101,14 @@ pub(super) fn hysteresis_sentence(
 pub(super) fn put_comparison(
     fields: &mut Fields,
     jumps: Vec<Fields>,
-    ranges: Option<&[(f64, f64)]>,
+    ranges: Option<&[RealInterval]>,
 ) {
     fields.list("jumps", jumps);
     match ranges {
         Some(ranges) => {
-            let pairs = ranges.iter().map(|(from, to)| vec![*from, *to].into());
+            let pairs = ranges
+                .iter()
+                .map(|RealInterval { lower: from, upper: to }| vec![*from, *to].into());
             fields.plain("hysteresis", pairs.collect::<Vec<Json>>());
         }
         None => {
@@ -144,6 +147,6 @@ mod tests {
     fn neighbouring_values_form_ranges() {
         let apart = [false, true, true, false, true].into_iter().enumerate();
         let found = ranges(apart.map(|(place, apart)| (place as f64, apart)));
-        assert_eq!(found, [(1.0, 2.0), (4.0, 4.0)]);
+        assert_eq!(found, [RealInterval::new(1.0, 2.0), RealInterval::new(4.0, 4.0)]);
     }
 }

@@ -230,8 +230,8 @@ impl LeastDitherFound {
                 };
                 format!(
                     "no amplitude from {} to {} is quiet{at}",
-                    study.in_words(study.quantity_of_amplitude(), self.amplitude.range.0),
-                    study.in_words(study.quantity_of_amplitude(), self.amplitude.range.1)
+                    study.in_words(study.quantity_of_amplitude(), self.amplitude.range.lower),
+                    study.in_words(study.quantity_of_amplitude(), self.amplitude.range.upper)
                 )
             }
             NoDesign::Limit { quantity, used, point } => {
@@ -262,7 +262,7 @@ impl LeastDitherFound {
         let mut binding: Vec<String> =
             limits.map(|(quantity, _)| quantity.name().to_owned()).collect();
         for (number, value) in self.others.iter().zip(&critical.others) {
-            if *value == number.range.0 || *value == number.range.1 {
+            if *value == number.range.lower || *value == number.range.upper {
                 binding.push(number.path.clone());
             }
         }

@@ -2,6 +2,7 @@
 
 use quell_design::least_dither::DesignObjective;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::answer::{limit_in_words, quantity_of};
 use super::found::LeastDitherFound;
@@ -24,7 +25,7 @@ impl LeastDitherFound {
             }
         };
         let force = |value: f64| study.in_words(study.quantity_of_amplitude(), value);
-        let (low, high) = found.interval;
+        let RealInterval { lower: low, upper: high } = found.interval;
         let high =
             if high.is_finite() { format!("to {}", force(high)) } else { "upwards".to_owned() };
         let others = self.chosen_in_words(&found.dither.others);
@@ -90,7 +91,7 @@ impl LeastDitherFound {
             }
         };
         let quantity = study.quantity_of_amplitude();
-        let (low, high) = found.interval;
+        let RealInterval { lower: low, upper: high } = found.interval;
         let high = if high.is_finite() {
             Ok(high)
         } else {

@@ -21,7 +21,8 @@ impl LeastDitherFound {
         let (Ok(part), Some(number)) = (&self.covered, self.over.first()) else {
             return String::new();
         };
-        let [low, high] = [part.ends.0, part.ends.1].map(|end| digits(end * number.per_unit));
+        let [low, high] =
+            [part.ends.lower, part.ends.upper].map(|end| digits(end * number.per_unit));
         let examined = format!(
             "{} point{} of that range that {} examined, at most {} apart",
             part.points,
@@ -37,7 +38,7 @@ impl LeastDitherFound {
                 (true, false) => format!(" A {one} is quiet and keeps"),
                 (false, _) => format!(" With a {one} the motion stays in step and keeps"),
             };
-            let is_smallest = part.amplitude <= self.amplitude.range.0;
+            let is_smallest = part.amplitude <= self.amplitude.range.lower;
             let smaller = if is_smallest { "" } else { "; a smaller amplitude may do so too" };
             return format!("{serves} every limit at all {examined}{leaves}{smaller}.");
         }
@@ -68,7 +69,7 @@ impl LeastDitherFound {
         };
         match part {
             Ok((part, number)) => {
-                let ends = [part.ends.0 * number.per_unit, part.ends.1 * number.per_unit];
+                let ends = [part.ends.lower * number.per_unit, part.ends.upper * number.per_unit];
                 let path = number.path.as_str();
                 fields.plain("covered", serde_json::json!({ path: ends }));
                 fields.nested("examined", examined(study, part, number));

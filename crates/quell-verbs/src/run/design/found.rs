@@ -6,6 +6,7 @@ use quell_design::least_dither::{
 };
 use quell_dynamics::orbit::ThresholdKind;
 use quell_model::{RefusedNumbers, Waveform};
+use quell_numerics::interval::RealInterval;
 
 use super::slow_response::LargestSlowResponse;
 use super::study_with_design::StudyWithDesign;
@@ -30,7 +31,7 @@ pub struct DesignNumber {
     /// The unit of the named key; empty without one.
     pub unit: String,
     /// Smallest and largest value, in numbers of the equations.
-    pub range: (f64, f64),
+    pub range: RealInterval,
 }
 
 impl DesignNumber {
@@ -111,8 +112,8 @@ pub(crate) struct TriedDither<'a, P> {
 
 impl DesignNumber {
     /// Smallest and largest value in the unit of the path.
-    pub(super) fn range_in_units(&self) -> (f64, f64) {
-        (self.range.0 * self.per_unit, self.range.1 * self.per_unit)
+    pub(super) fn range_in_units(&self) -> RealInterval {
+        RealInterval::new(self.range.lower * self.per_unit, self.range.upper * self.per_unit)
     }
 }
 
@@ -156,7 +157,7 @@ pub struct ConfidentDither {
     /// The dither, with its objective and the use of every limit.
     pub dither: DesignPoint,
     /// The 95 % interval of the amplitude; the upper end is infinite where samples are never quiet.
-    pub interval: (f64, f64),
+    pub interval: RealInterval,
     /// The least amplitude of the study's own numbers with the same other design variables.
     pub least: f64,
     /// Samples whose exact threshold was computed.

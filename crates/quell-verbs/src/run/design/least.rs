@@ -7,6 +7,7 @@ use quell_design::least_dither::{
 };
 use quell_dynamics::simulation::{apart, within};
 use quell_linear::averaging::DitheredSystem;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::found::{DesignNumber, DesignNumbers, DesignedDither, LeastDitherFound, TriedDither};
@@ -95,7 +96,7 @@ pub(crate) fn least_system_dithers(
 fn without_state(found: &LeastDitherFound, at: &SystemAtPoint<'_>) -> Vec<String> {
     let Ok(feasible) = &found.answer().answer else { return Vec::new() };
     let critical = &feasible.critical;
-    let middle = || found.over.iter().map(|over| 0.5 * (over.range.0 + over.range.1)).collect();
+    let middle = || found.over.iter().map(|over| over.range.middle()).collect();
     let point: Vec<f64> = critical.worst.clone().unwrap_or_else(middle);
     let place = OperatingPoint { point: &point, others: &critical.others };
     let Ok(system) = at(place, critical.amplitude) else { return Vec::new() };
@@ -116,7 +117,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
 ) -> Result<LeastDitherFound, Failure> {
     let sampling = sampling(study, asked, numbers)?;
     let DesignNumbers { amplitude, others, over } = numbers.clone();
-    let ranges = |numbers: &[DesignNumber]| -> Vec<(f64, f64)> {
+    let ranges = |numbers: &[DesignNumber]| -> Vec<RealInterval> {
         numbers.iter().map(|number| number.range).collect()
     };
     let (box_ranges, other_ranges) = (ranges(&over), ranges(&others));
@@ -249,7 +250,7 @@ fn covered_fast_first(
 /// limit that they must keep: averaging may choose a dither whose exact amplitude is a little beyond it.
 fn within_range(problem: DesignProblem<'_>) -> Designed {
     let found = design(problem);
-    let (from, to) = problem.amplitude;
+    let RealInterval { lower: from, upper: to } = problem.amplitude;
     let is_limited = problem
         .limits
         .iter()
@@ -259,9 +260,10 @@ fn within_range(problem: DesignProblem<'_>) -> Designed {
     }
     let mut limits = problem.limits.to_vec();
     limits.push((LimitedQuantity::Amplitude, to));
-    let wider = DesignProblem { amplitude: (from, WIDER * to), limits: &limits, ..problem };
-    let others: Vec<f64> = problem.others.iter().map(|(low, _)| *low).collect();
-    let point: Vec<f64> = problem.over.iter().map(|(low, _)| *low).collect();
+    let amplitude = RealInterval::new(from, WIDER * to);
+    let wider = DesignProblem { amplitude, limits: &limits, ..problem };
+    let others: Vec<f64> = problem.others.iter().map(|range| range.lower).collect();
+    let point: Vec<f64> = problem.over.iter().map(|range| range.lower).collect();
     let at = OperatingPoint { point: &point, others: &others };
     // More normal dither may pull a contact apart.
     if problem.plant.averaged_loss(at, WIDER * to).is_err() {
@@ -272,7 +274,11 @@ fn within_range(problem: DesignProblem<'_>) -> Designed {
 }
 
 /// The exact least dithers along a box of one coordinate.
-fn schedule(problem: DesignProblem<'_>, range: (f64, f64), others: &[f64]) -> Vec<ScheduledDither> {
+fn schedule(
+    problem: DesignProblem<'_>,
+    range: RealInterval,
+    others: &[f64],
+) -> Vec<ScheduledDither> {
     let at = |point: f64| apart(STEPS_OF_MANY_SEARCHES, || problem.scheduled(&[point], others)).0;
     let points = evenly(range, SCHEDULE);
     points.in_parallel(|point| at(*point)).collect()

@@ -8,6 +8,7 @@ use quell_design::least_dither::{
 use quell_design::tasks::InTurn;
 use quell_dynamics::simulation::within;
 use quell_model::RefusedNumbers;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::found::{ConfidentDither, DesignNumber, DesignNumbers};
@@ -85,7 +86,7 @@ enum Averaged {
 /// The least amplitude that is quiet in a share of the samples.
 struct Quantile {
     amplitude: f64,
-    interval: (f64, f64),
+    interval: RealInterval,
     exact: usize,
     never: usize,
     loud_again: usize,
@@ -163,7 +164,7 @@ impl DrawnSamples<'_> {
             });
         }
         let loud = |place: &usize| {
-            samples.least(*place) < quantile.interval.0
+            samples.least(*place) < quantile.interval.lower
                 && !known.contains(*place)
                 && drawn(samples.valid[*place]).is_ok_and(|sample| {
                     !problem.is_quiet_by_averaging(&sample, design, quantile.value)
@@ -298,7 +299,7 @@ impl AveragedSamples {
 /// Why it does not exist.
 fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, NoConfidentDither> {
     let plant = ScaledPlant { plant: problem.plant, factor };
-    let (from, to) = problem.amplitude;
+    let RealInterval { lower: from, upper: to } = problem.amplitude;
     let limits: Vec<(LimitedQuantity, f64)> = problem
         .limits
         .iter()
@@ -307,7 +308,7 @@ fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, NoC
             _ => (*quantity, *limit),
         })
         .collect();
-    let amplitude = (from, (to / factor).max(from));
+    let amplitude = RealInterval::new(from, (to / factor).max(from));
     let problem = DesignProblem { plant: &plant, amplitude, limits: &limits, ..*problem };
     let found = within(STEPS_OF_MANY_SEARCHES, || design(problem));
     found.answer.map(|found| found.critical).map_err(|none| match none.why {

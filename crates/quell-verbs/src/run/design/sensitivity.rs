@@ -2,6 +2,7 @@
 
 use quell_design::least_dither::{DesignStart, LeastAmplitude, LeastAmplitudeSensitivity};
 use quell_model::{RefusedNumbers, System, Waveform};
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::descending_by;
 use serde_json::Value as Json;
 
@@ -121,7 +122,7 @@ impl LeastDitherFound {
         let amplitude = critical.amplitude * self.amplitude.per_unit;
         let others = in_units(&self.others, &critical.others);
         let point = in_units(&self.over, worst);
-        let over: Vec<(f64, f64)> = self.over.iter().map(DesignNumber::range_in_units).collect();
+        let over: Vec<RealInterval> = self.over.iter().map(DesignNumber::range_in_units).collect();
         let other_paths = self.others.iter().map(|number| number.path.as_str());
         let over_paths: Vec<&str> = self.over.iter().map(|number| number.path.as_str()).collect();
         let chosen: Vec<(&str, f64)> = other_paths.zip(others).collect();

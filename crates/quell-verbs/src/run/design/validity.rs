@@ -3,6 +3,7 @@
 use quell_design::least_dither::{CoveredBox, FeasibleDesign};
 use quell_dynamics::response::BAND_END;
 use quell_model::Waveform;
+use quell_numerics::interval::RealInterval;
 
 use super::found::{DesignNumber, DesignNumbers, DesignedDither, LeastDitherFound};
 use super::study_with_design::StudyWithDesign;
@@ -22,7 +23,7 @@ pub(super) struct ClaimedDither<'a> {
 impl<'a> ClaimedDither<'a> {
     /// The dither that serves a part of the box: at both ends and in the middle.
     fn of_part(part: &'a CoveredBox) -> Self {
-        let (low, high) = part.ends;
+        let RealInterval { lower: low, upper: high } = part.ends;
         let points = [high, low, 0.5 * (low + high)].map(|value| vec![value]).to_vec();
         Self { amplitude: part.amplitude, others: &part.others, points }
     }
@@ -33,7 +34,7 @@ impl DesignNumbers {
     pub(super) fn verified<'a>(&self, found: &'a FeasibleDesign) -> ClaimedDither<'a> {
         let mut points: Vec<Vec<f64>> = vec![Vec::new()];
         for number in &self.over {
-            let ends = [number.range.1, number.range.0];
+            let ends = [number.range.upper, number.range.lower];
             let longer = |point: &Vec<f64>| ends.map(|end| [point.as_slice(), &[end]].concat());
             points = points.iter().flat_map(longer).collect();
         }

@@ -10,6 +10,7 @@ use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::profile::Profile;
 use quell_model::units::{DiscScales, Quantity, UnitSystem};
 use quell_model::{Direction, Disc, Waveform};
+use quell_numerics::interval::RealInterval;
 use serde_json::{Value as Json, json};
 
 use crate::disc_units::DiscUnits;
@@ -71,7 +72,9 @@ pub fn json(study: &DiscStudy) -> Json {
                 put(&mut object, LOAD_HALF_THICKNESS, load.half_thickness, scales);
             }
             put_area(&mut object, load);
-            if let Some((least, largest)) = load.share.as_ref().map(Profile::bounds) {
+            if let Some(RealInterval { lower: least, upper: largest }) =
+                load.share.as_ref().map(Profile::bounds)
+            {
                 object["least_share"] = least.into();
                 object["largest_share"] = largest.into();
             }
@@ -138,7 +141,8 @@ pub fn json(study: &DiscStudy) -> Json {
 
 /// Adds the speed; where it varies in time, its least and its largest value.
 fn put_speed(object: &mut Json, disc: &Disc, scales: LoadUnits) {
-    let Some((least, largest)) = disc.drive().map(Profile::bounds) else {
+    let Some(RealInterval { lower: least, upper: largest }) = disc.drive().map(Profile::bounds)
+    else {
         put(&mut object["disc"], DISC_SPEED, disc.speed(), scales);
         return;
     };

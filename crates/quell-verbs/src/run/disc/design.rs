@@ -8,6 +8,7 @@ use quell_model::disc::{Contributions, DiscDither};
 use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, DISC_SPEED};
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::{Disc, RefusedNumbers, Waveform};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -81,24 +82,24 @@ pub fn run(study: &DiscStudy) -> Result<LeastDitherFound, Failure> {
 
 /// The middle of each range.
 fn middles(numbers: &[DesignNumber]) -> Vec<f64> {
-    numbers.iter().map(|number| f64::midpoint(number.range.0, number.range.1)).collect()
+    numbers.iter().map(|number| f64::midpoint(number.range.lower, number.range.upper)).collect()
 }
 
 /// The exact thresholds in amplitude at speeds of a range, among them those in and next to every predicted tongue.
 fn tongues(
     plant: &DiscPlant<'_>,
-    (from, to): (f64, f64),
+    RealInterval { lower: from, upper: to }: RealInterval,
     others: &[f64],
-    range: (f64, f64),
+    range: RealInterval,
 ) -> Vec<(f64, Vec<f64>)> {
     let first = OperatingPoint { point: &[from], others };
     // An amplitude at which normal dither would pull the contact apart has no thresholds.
-    let Ok(disc) = (plant.at)(first, range.1) else { return Vec::new() };
+    let Ok(disc) = (plant.at)(first, range.upper) else { return Vec::new() };
     let thresholds = |speed: f64| {
         let at = OperatingPoint { point: &[speed], others };
         let quiet = plant.exact(at, range).ok()?;
-        let ends = quiet.intervals().iter().flat_map(|(low, high)| [*low, *high]);
-        Some((speed, ends.filter(|end| *end > range.0 && *end < range.1).collect()))
+        let ends = quiet.intervals().iter().flat_map(|quiet| [quiet.lower, quiet.upper]);
+        Some((speed, ends.filter(|end| *end > range.lower && *end < range.upper).collect()))
     };
     tongue_grid(&disc, &(from..=to), DRAWN).into_iter().filter_map(thresholds).collect()
 }
@@ -136,7 +137,8 @@ impl DiscNumber {
             (value != 0.0).then_some(end / value)
         };
         let per_unit = in_equations().unwrap_or(1.0);
-        let (path, ends) = (range.path.clone(), (range.from / per_unit, range.to / per_unit));
+        let path = range.path.clone();
+        let ends = RealInterval::new(range.from / per_unit, range.to / per_unit);
         let unit = Some(StudyWithDesign::unit_at(study, &path))
             .filter(|unit| unit != "1")
             .unwrap_or_default();

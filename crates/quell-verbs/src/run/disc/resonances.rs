@@ -15,6 +15,7 @@ use quell_model::Disc;
 use quell_model::disc::Contributions;
 use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::{Map, Value as Json, json};
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
@@ -43,13 +44,14 @@ impl ResonancesRequest {
     /// # Errors
     /// Every complaint at once.
     pub fn new(
-        speeds: (f64, f64),
+        speeds: RealInterval,
         order: Order,
-        clear: Option<(f64, f64)>,
-        frequency: Option<(f64, f64)>,
+        clear: Option<RealInterval>,
+        frequency: Option<RealInterval>,
     ) -> Result<Self, Complaints> {
         let mut wrong = Vec::new();
-        let mut range = |option, bounds: Bounds, (from, to): (f64, f64)| {
+        let mut range = |option, bounds: Bounds, range: RealInterval| {
+            let RealInterval { lower: from, upper: to } = range;
             let given = || format!("{from}:{to}");
             if !(from.is_finite() && to.is_finite() && from <= to) {
                 let allowed = "FROM:TO, two finite numbers, the first at most the second";
@@ -67,7 +69,7 @@ impl ResonancesRequest {
         for (option, one, other) in
             [("--clear", clear, frequency.is_none()), ("--frequency", frequency, clear.is_none())]
         {
-            if let Some((from, to)) = one
+            if let Some(RealInterval { lower: from, upper: to }) = one
                 && other
             {
                 let allowed = "--clear and --frequency must be given together";

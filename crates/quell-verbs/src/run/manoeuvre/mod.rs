@@ -4,12 +4,13 @@ mod interval;
 mod quench;
 mod spectrogram;
 
-pub use interval::VibrationInterval;
+pub use interval::{VibrationInterval, VibrationLevel, VibrationLimits};
 pub use quench::{DitherSwitching, OnPhase, RunConditions};
 pub use spectrogram::Spectrogram;
 
 use quell_model::System;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use crate::fields::Fields;
 use crate::words::plural;
@@ -50,11 +51,11 @@ pub struct Manoeuvre {
     /// The intervals of vibration, in order.
     pub vibration: Vec<VibrationInterval>,
     /// The levels above which vibration begins and below which it has ended, shares of the largest one; `None` without vibration.
-    pub limits: Option<(f64, f64)>,
+    pub limits: Option<VibrationLimits>,
     /// What the dither does each time it is switched on.
     pub quenches: Vec<DitherSwitching>,
     /// Beginning and end of the run.
-    pub whole: (f64, f64),
+    pub whole: RealInterval,
 }
 
 impl Manoeuvre {
@@ -83,29 +84,33 @@ impl Manoeuvre {
         let motion = slow.as_ref().map_or(motion, SlowMotion::sampled);
         let SampledMotion { displacement, .. } = motion;
         let levels = levels(motion, period);
-        let largest = levels.iter().fold(0.0, |most: f64, (_, level)| most.max(*level));
+        let largest = levels.iter().fold(0.0, |most: f64, at| most.max(at.level));
         let reach = displacement.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let limits = (largest > LEAST * reach).then_some((BEGINS * largest, ENDS * largest));
+        let limits = (largest > LEAST * reach).then_some(VibrationLimits {
+            begins_above: BEGINS * largest,
+            ends_below: ENDS * largest,
+        });
+        let whole = RealInterval::new(start, end);
         let vibration =
-            limits.map_or_else(Vec::new, |limits| intervals(&levels, limits, (start, end), period));
+            limits.map_or_else(Vec::new, |limits| intervals(&levels, limits, whole, period));
         let quenches = conditions.quenches(&vibration, &levels, (end, period));
-        Self { vibration, limits, quenches, whole: (start, end) }
+        Self { vibration, limits, quenches, whole }
     }
 }
 
 /// The intervals in which the level rises above the first limit, until it falls below the second one for longer than a [`PAUSE`].
 fn intervals(
-    levels: &[(f64, f64)],
-    (begins, ends): (f64, f64),
-    (start, end): (f64, f64),
+    levels: &[VibrationLevel],
+    limits: VibrationLimits,
+    RealInterval { lower: start, upper: end }: RealInterval,
     period: f64,
 ) -> Vec<VibrationInterval> {
     let mut vibration: Vec<VibrationInterval> = Vec::new();
     let mut going = false;
-    for (time, level) in levels {
+    for VibrationLevel { time, level } in levels {
         if going {
-            going = *level > ends;
-        } else if *level > begins {
+            going = *level > limits.ends_below;
+        } else if *level > limits.begins_above {
             going = true;
             let resumes = vibration.last().is_some_and(|last| time - last.to < PAUSE * period);
             let from = if vibration.is_empty() && *time <= start + period { start } else { *time };
@@ -148,7 +153,7 @@ pub(crate) fn vibration_levels(
     motion: SampledMotion<'_>,
     period: f64,
     fast: Option<f64>,
-) -> Vec<(f64, f64)> {
+) -> Vec<VibrationLevel> {
     let slow = without_fast(motion, period, fast);
     levels(slow.as_ref().map_or(motion, SlowMotion::sampled), period)
 }
@@ -188,7 +193,7 @@ impl Manoeuvre {
     /// When the run vibrates, in one or two sentences; `in_words` writes a quantity with its unit, `what` vibrates.
     pub fn sentence(&self, what: &str, in_words: impl Fn(Quantity, f64) -> String) -> String {
         let moment = |time: f64| in_words(Quantity::Time, time);
-        let (begins, ends) = self.whole;
+        let RealInterval { lower: begins, upper: ends } = self.whole;
         let each = self.vibration.iter().take(MOST_INTERVALS).map(|interval| {
             let from = if interval.from <= begins {
                 "the start".to_owned()
@@ -236,14 +241,12 @@ impl Manoeuvre {
             inner
         });
         fields.list("vibration", intervals.collect::<Vec<_>>());
-        let limit = |of: fn((f64, f64)) -> f64| {
+        let limit = |of: fn(VibrationLimits) -> f64| {
             self.limits.map(of).ok_or_else(|| "nothing vibrates".to_owned())
         };
-        fields.known("begins_above", Quantity::Displacement, limit(|limits| limits.0)).known(
-            "ends_below",
-            Quantity::Displacement,
-            limit(|limits| limits.1),
-        );
+        fields
+            .known("begins_above", Quantity::Displacement, limit(|limits| limits.begins_above))
+            .known("ends_below", Quantity::Displacement, limit(|limits| limits.ends_below));
         let none = || "no dither is switched on during the run".to_owned();
         let first = self.quenches.first().ok_or_else(none);
         let of = |value: fn(&DitherSwitching) -> Result<f64, &'static str>| {
@@ -268,7 +271,7 @@ impl Manoeuvre {
 }
 
 /// Half of the peak-to-peak displacement within one natural period, without its drift, at the middle of each window.
-fn levels(motion: SampledMotion<'_>, period: f64) -> Vec<(f64, f64)> {
+fn levels(motion: SampledMotion<'_>, period: f64) -> Vec<VibrationLevel> {
     let SampledMotion { start, step, displacement } = motion;
     #[expect(
         clippy::cast_possible_truncation,
@@ -289,7 +292,8 @@ fn levels(motion: SampledMotion<'_>, period: f64) -> Vec<(f64, f64)> {
                 least = least.min(rest);
                 most = most.max(rest);
             }
-            (step.mul_add(first as f64 + 0.5 * length as f64, start), 0.5 * (most - least))
+            let time = step.mul_add(first as f64 + 0.5 * length as f64, start);
+            VibrationLevel { time, level: 0.5 * (most - least) }
         })
         .collect()
 }
@@ -342,7 +346,7 @@ mod tests {
         assert!(found.vibration.is_empty() && found.quenches.is_empty());
         let always = motion(f64::sin);
         let found = Manoeuvre::of(sampled(&always), TAU, None, &on(20.0));
-        assert_eq!((found.vibration[0].from, found.vibration[0].to), found.whole);
+        assert_eq!(RealInterval::new(found.vibration[0].from, found.vibration[0].to), found.whole);
         assert!(found.quenches[0].time.is_err());
     }
 

@@ -3,7 +3,7 @@
 use quell_model::System;
 use quell_model::profile::{Knots, Profile};
 
-use super::interval::VibrationInterval;
+use super::interval::{VibrationInterval, VibrationLevel};
 
 /// Share of the range of an envelope below which the dither is off.
 const OFF: f64 = 1e-3;
@@ -55,7 +55,7 @@ impl RunConditions<'_> {
     pub(super) fn quenches(
         &self,
         vibration: &[VibrationInterval],
-        levels: &[(f64, f64)],
+        levels: &[VibrationLevel],
         (end, period): (f64, f64),
     ) -> Vec<DitherSwitching> {
         let phases = self.phases.iter().filter(|on| on.from < end);
@@ -66,7 +66,7 @@ impl RunConditions<'_> {
         &self,
         on: OnPhase,
         vibration: &[VibrationInterval],
-        levels: &[(f64, f64)],
+        levels: &[VibrationLevel],
         (end, period): (f64, f64),
     ) -> DitherSwitching {
         let at_onset =
@@ -91,11 +91,11 @@ impl RunConditions<'_> {
         } else {
             Ok(last - on.from)
         };
-        let level_at = levels.iter().take_while(|(time, _)| *time <= on.from).last();
-        let after = levels.iter().filter(|(time, _)| on.from < *time && *time < off);
-        let most = after.fold(0.0, |most: f64, (_, level)| most.max(*level));
-        let overshoot = level_at.map_or(Err("the dither is on from the start"), |(_, level)| {
-            Ok((most / level - 1.0).max(0.0))
+        let level_at = levels.iter().take_while(|at| at.time <= on.from).last();
+        let after = levels.iter().filter(|at| on.from < at.time && at.time < off);
+        let most = after.fold(0.0, |most: f64, at| most.max(at.level));
+        let overshoot = level_at.map_or(Err("the dither is on from the start"), |at| {
+            Ok((most / at.level - 1.0).max(0.0))
         });
         DitherSwitching { on, time, overshoot, alone }
     }
@@ -202,7 +202,7 @@ mod tests {
         let phases = vec![on(1.0, 2.0), on(5.0, 7.0), on(8.5, f64::INFINITY)];
         let steady = RunConditions { phases, rest: f64::INFINITY, changes: &|from, _| from > 8.0 };
         let times: Vec<Known> = steady
-            .quenches(&found, &[(0.0, 1.0)], (10.0, 0.1))
+            .quenches(&found, &[VibrationLevel { time: 0.0, level: 1.0 }], (10.0, 0.1))
             .iter()
             .map(|quench| quench.time)
             .collect();

@@ -4,6 +4,7 @@ use quell_dynamics::motion::{ContactPhase, RecordedEvent};
 use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, without_cycle};
 use quell_dynamics::simulation::EventKind;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::{Value as Json, json};
 
 use super::{FoundBy, FoundMotion, PeriodicResponse};
@@ -423,7 +424,8 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
         inner
     });
     fields.list("contacts", contacts);
-    let [(low, high), (slow, fast)] = samples.extremes();
+    let [RealInterval { lower: low, upper: high }, RealInterval { lower: slow, upper: fast }] =
+        samples.extremes();
     fields
         .number("lowest", Quantity::Displacement, low)
         .number("highest", Quantity::Displacement, high)

@@ -2,6 +2,7 @@
 
 use quell_design::probability::{SobolEstimate, SobolIndices, quantile};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::{
@@ -33,7 +34,7 @@ impl VibrationProbability {
     /// The sentence of the answer.
     pub fn sentence(&self, study: &impl SampledKind) -> String {
         let of = |tally: &VerdictTally| {
-            let (low, high) = tally.interval();
+            let RealInterval { lower: low, upper: high } = tally.interval();
             tally.probability().map(|probability| {
                 format!(
                     "{} (95 % interval {} to {})",
@@ -255,7 +256,7 @@ fn quantiles(study: &impl SampledKind, growth: &SampledGrowth) -> Fields {
 }
 
 fn put_tally(fields: &mut Fields, tally: &VerdictTally) {
-    let (low, high) = tally.interval();
+    let RealInterval { lower: low, upper: high } = tally.interval();
     match tally.probability() {
         Some(probability) => {
             fields

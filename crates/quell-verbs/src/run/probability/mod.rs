@@ -11,6 +11,8 @@ mod unknown;
 
 use std::sync::atomic::Ordering;
 
+use quell_numerics::interval::RealInterval;
+
 use crate::parallel::Parallel;
 use quell_design::probability::{SobolIndices, binomial_interval, quantile, sobol_indices};
 use quell_model::RefusedNumbers;
@@ -149,11 +151,12 @@ impl VerdictTally {
     }
 
     /// The 95 % interval of the probability, wide enough for any verdict of the samples whose verdict is unknown.
-    pub fn interval(&self) -> (f64, f64) {
+    pub fn interval(&self) -> RealInterval {
         let all = self.vibrating + self.quiet + self.unknown;
-        let (low, _) = binomial_interval(self.vibrating, all);
-        let (_, high) = binomial_interval(self.vibrating + self.unknown, all);
-        (low, high)
+        let RealInterval { lower: low, .. } = binomial_interval(self.vibrating, all);
+        let RealInterval { upper: high, .. } =
+            binomial_interval(self.vibrating + self.unknown, all);
+        RealInterval::new(low, high)
     }
 }
 
@@ -378,7 +381,7 @@ fn growth(
 impl SampledGrowth {
     /// Growth rates times a factor, and the share of the samples up to each, at most `points` of them.
     pub fn distribution(&self, points: usize, factor: f64) -> (Vec<f64>, Vec<f64>) {
-        let shares = super::evenly((0.0, 1.0), points);
+        let shares = super::evenly(RealInterval::new(0.0, 1.0), points);
         let at = |share: f64| Some((factor * quantile(&self.rates, share)?, share));
         shares.into_iter().filter_map(at).unzip()
     }

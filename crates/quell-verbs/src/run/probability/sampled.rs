@@ -9,6 +9,7 @@ use quell_linear::growth::{Growth, Verdict, of_criterion};
 use quell_model::disc::Disc;
 use quell_model::units::Quantity;
 use quell_model::{Dither, Input, OneMass, RefusedNumbers, System};
+use quell_numerics::interval::RealInterval;
 
 use super::unknown::{NoSampledGrowth, NoSampledThreshold, NoSampledVerdict, RefusedStart};
 use super::{ProbabilityStart, verdict};
@@ -174,7 +175,7 @@ impl SampledKind for SystemStudy {
         if exactly {
             return Ok(least_quiet(system, input)?);
         }
-        let quiet = averaged_quiet(system, input, (0.0, f64::INFINITY))?;
+        let quiet = averaged_quiet(system, input, RealInterval::new(0.0, f64::INFINITY))?;
         Ok(quiet.least_from(0.0).unwrap_or(f64::INFINITY))
     }
 

@@ -8,6 +8,7 @@ use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, indexed};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::{NoRampThresholds, Ramp, RampCourse, RampThreshold, RampedMotion};
 use crate::complaint::Failure;
@@ -43,7 +44,7 @@ pub fn run(study: &SystemStudy) -> Result<Ramp, Failure> {
         times: times.to_vec(),
         displacement: states.clone().map(observed).collect(),
         velocity: is_mechanical.then(|| states.map(|state| rate_of(&row, state)).collect()),
-        period: natural_period(study, (run.start.time, until)),
+        period: natural_period(study, RealInterval::new(run.start.time, until)),
         fast: acting.map(Wave::repetition).reduce(f64::min).map(|rate| TAU / rate),
     };
     let thresholds = thresholds(study, &ramped);

@@ -13,11 +13,14 @@ use std::fmt::Write as _;
 use quell_dynamics::orbit::{NoOrbit, OrbitVerdict};
 use quell_model::profile::Knots;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, find_root};
 use serde_json::Value as Json;
 
-use super::manoeuvre::{Manoeuvre, SampledMotion, VibrationInterval, vibration_levels};
+use super::manoeuvre::{
+    Manoeuvre, SampledMotion, VibrationInterval, VibrationLevel, VibrationLimits, vibration_levels,
+};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::fields::Fields;
@@ -102,9 +105,9 @@ impl RampCourse {
     }
 
     /// Least and largest value.
-    pub fn range(&self) -> (f64, f64) {
-        let (least, largest) = self.knots.range();
-        (self.factor * least, self.factor * largest)
+    pub fn range(&self) -> RealInterval {
+        let RealInterval { lower: least, upper: largest } = self.knots.range();
+        RealInterval::new(self.factor * least, self.factor * largest)
     }
 
     /// The times at which it passes a value, and whether it rises there. Between two knots it is monotone.
@@ -134,13 +137,13 @@ impl RampCourse {
     }
 
     /// The values over which thresholds are searched.
-    fn searched(&self) -> Result<(f64, f64), NoRampThresholds> {
-        let (least, largest) = self.range();
+    fn searched(&self) -> Result<RealInterval, NoRampThresholds> {
+        let RealInterval { lower: least, upper: largest } = self.range();
         let from = least.max(LEAST * largest);
         if from >= largest {
             return Err(NoRampThresholds::NoPositiveValues);
         }
-        Ok((from, largest))
+        Ok(RealInterval::new(from, largest))
     }
 }
 
@@ -194,7 +197,7 @@ pub struct RampedMotion {
 
 impl RampedMotion {
     /// The slow vibration over time.
-    pub fn levels(&self) -> Vec<(f64, f64)> {
+    pub fn levels(&self) -> Vec<VibrationLevel> {
         let [first, second, ..] = self.times[..] else { return Vec::new() };
         let displacement = &self.displacement;
         let sampled = SampledMotion { start: first, step: second - first, displacement };
@@ -223,7 +226,7 @@ pub struct Ramp {
 
 impl Ramp {
     /// The levels from which vibration counts, and below which it has ended.
-    pub fn limits(&self) -> Option<(f64, f64)> {
+    pub fn limits(&self) -> Option<VibrationLimits> {
         self.manoeuvre.as_ref().and_then(|manoeuvre| manoeuvre.limits)
     }
 
@@ -294,7 +297,7 @@ impl Ramp {
         let in_words = |quantity, value| in_units(study.units(), quantity, value);
         let RampCourse { words, quantity, .. } = &self.ramped;
         let in_its_unit = |value: f64| in_words(*quantity, value);
-        let (least, largest) = self.ramped.range();
+        let RealInterval { lower: least, upper: largest } = self.ramped.range();
         let mut text = format!(
             "While the {words} moves between {} and {} until {}, ",
             in_its_unit(least),
@@ -303,7 +306,7 @@ impl Ramp {
         );
         let transient = TRANSIENT * self.motion.period;
         let vibrates = self.manoeuvre.as_ref().is_some_and(|found| {
-            found.vibration.iter().any(|interval| interval.to > found.whole.0 + transient)
+            found.vibration.iter().any(|interval| interval.to > found.whole.lower + transient)
         });
         let named = self.switches.iter().take(MOST_SWITCHES);
         let mut each: Vec<String> =
@@ -328,7 +331,7 @@ impl Ramp {
         let empty = || Fields::in_units(study.units());
         let quantity = self.ramped.quantity;
         let mut fields = empty();
-        let (least, largest) = self.ramped.range();
+        let RealInterval { lower: least, upper: largest } = self.ramped.range();
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
@@ -394,7 +397,7 @@ impl Ramp {
 /// When a run begins and ceases to vibrate. A vibration that the start itself excites, and that has decayed within a time
 /// `transient`, is no part of the ramp.
 fn switches(found: &Manoeuvre, ramped: &RampCourse, transient: f64) -> Vec<RampSwitch> {
-    let (begin, end) = found.whole;
+    let RealInterval { lower: begin, upper: end } = found.whole;
     let is_transient =
         |interval: &&VibrationInterval| interval.from <= begin && interval.to <= begin + transient;
     let switch = |time: f64, to_quiet| RampSwitch { time, value: ramped.value(time), to_quiet };

@@ -18,6 +18,7 @@ use quell_model::parameter::system::SYSTEM_DITHER_FREQUENCY;
 use quell_model::profile::Wave;
 use quell_model::system::Input;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::actuator::beyond_actuator;
 use super::effect_words::{EffectWords, percent, residual_in_words};
@@ -48,7 +49,7 @@ pub struct ResponseRequest {
     /// Number of runs under noise, each with another seed.
     pub seeds: Option<usize>,
     /// Two times of a run between which it is measured, instead of a steady response.
-    pub window: Option<(f64, f64)>,
+    pub window: Option<RealInterval>,
 }
 
 /// The options of `response` as they are given.
@@ -78,7 +79,7 @@ impl ResponseTexts<'_> {
         let ends = self
             .window
             .map(|(from, to)| [time("--window", Some(from)), time("--window", Some(to))]);
-        let window = ends.and_then(|[from, to]| from.zip(to));
+        let window = ends.and_then(|[from, to]| Some(RealInterval::new(from?, to?)));
         if wrong.is_empty() {
             Ok(ResponseRequest { settle, record, window, seeds: None })
         } else {

@@ -7,6 +7,8 @@ mod trajectory;
 
 use std::f64::consts::TAU;
 
+use quell_numerics::interval::RealInterval;
+
 pub use quell_dynamics::motion::MotionStart;
 use quell_dynamics::motion::{
     ContactMeans, ContactMeter, Motion, MotionEnd, MotionObserver, MotionSampler, MotionSegment,
@@ -130,7 +132,9 @@ pub(crate) fn run_observed(
         Some(until) => until,
         None => start.time + DEFAULT_PERIODS * slowest_period(study, "--until")?,
     };
-    let plan = request.sound.map(|options| sound::plan(study, (start.time, until), options));
+    let plan = request
+        .sound
+        .map(|options| sound::plan(study, RealInterval::new(start.time, until), options));
     let plan = plan.transpose()?;
     sample_times::are_within(start.time, until, request.times.as_deref())?;
     // That of a belt, whose time scale is 1. The engine refuses what takes too many steps; with more, it would begin runs of days.
@@ -157,7 +161,7 @@ pub(crate) fn run_observed(
     };
     let mut sampler = sampling();
     let mut tap = MotionSoundTap::new(study, &start, plan.as_ref());
-    let mut trace = trace(study, &motion, (start.time, until));
+    let mut trace = trace(study, &motion, RealInterval::new(start.time, until));
     let watch = (&mut tap, (&mut trace, watch));
     let mut observer = (&mut meter, (&mut history, (&mut sampler, watch)));
     let end = motion
@@ -208,7 +212,11 @@ fn without_dither(
 }
 
 /// The observed row in which the vibration of a run is found; none of a steady study.
-fn trace(study: &SystemStudy, motion: &Motion<'_>, (from, until): (f64, f64)) -> TracedRow {
+fn trace(
+    study: &SystemStudy,
+    motion: &Motion<'_>,
+    RealInterval { lower: from, upper: until }: RealInterval,
+) -> TracedRow {
     if study.system().is_steady() || until <= from {
         return TracedRow { meter: None, step: 0.0 };
     }
@@ -243,7 +251,7 @@ fn manoeuvre(study: &SystemStudy, traced: TracedRow, start: f64) -> Option<Manoe
     let slowest = waves().map(Wave::repetition).reduce(f64::min);
     Some(Manoeuvre::in_system(
         motion,
-        natural_period(study, (start, start + meter.samples.len() as f64 * step)),
+        natural_period(study, RealInterval::new(start, start + meter.samples.len() as f64 * step)),
         slowest.map(|rate| TAU / rate),
         study.system(),
     ))

@@ -1,6 +1,7 @@
 //! The velocity of the observed row of a system on its way to a sound.
 
 use quell_dynamics::motion::{MotionEnd, MotionObserver, MotionSegment, MotionStart};
+use quell_numerics::interval::RealInterval;
 
 use crate::complaint::Complaint;
 use crate::run::system::periods::lowest_natural;
@@ -14,7 +15,7 @@ use crate::study::SystemStudy;
 /// As [`SoundPlan::new`].
 pub(super) fn plan(
     study: &SystemStudy,
-    (from, until): (f64, f64),
+    RealInterval { lower: from, upper: until }: RealInterval,
     options: SoundOptions,
 ) -> Result<SoundPlan, Box<Complaint>> {
     let motion = RecordedMotion {

@@ -136,8 +136,8 @@ pub(in crate::run) fn put_attractor(
     });
     put_state(fields, study, &attractor.state);
     fields
-        .number("lowest", Quantity::Displacement, attractor.extremes.0)
-        .number("highest", Quantity::Displacement, attractor.extremes.1)
+        .number("lowest", Quantity::Displacement, attractor.extremes.lower)
+        .number("highest", Quantity::Displacement, attractor.extremes.upper)
         .number("peak_to_peak", Quantity::Displacement, attractor.size())
         .numbers("section_displacement", Quantity::Displacement, &attractor.section);
     match section_rates(attractor, study) {

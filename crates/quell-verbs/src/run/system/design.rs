@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use quell_design::least_dither::{OperatingPoint, Plant, SampledQuiet, SystemAtPoint, SystemPlant};
 use quell_model::{RefusedNumbers, System, Waveform};
+use quell_numerics::interval::RealInterval;
 
 use super::has_equations;
 use crate::complaint::{Complaint, Failure};
@@ -66,7 +67,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         path: range.path.clone(),
         per_unit: 1.0,
         unit: study.unit_of(&range.path).filter(|unit| *unit != "1").unwrap_or("").to_owned(),
-        range: (range.from, range.to),
+        range: RealInterval::new(range.from, range.to),
     };
     let numbers = DesignNumbers {
         amplitude: number(amplitude),
@@ -90,7 +91,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         at(&own)?;
         let exactly = |exactly: bool| {
             let (system, others) = (system.clone(), own.clone());
-            move |point: &[f64], range: (f64, f64)| {
+            move |point: &[f64], range: RealInterval| {
                 let of = SystemPlant { at: &system, input, observe: &[], start: asked.start };
                 let at = OperatingPoint { point, others: &others };
                 if exactly { of.exact(at, range) } else { of.averaged(at, range) }

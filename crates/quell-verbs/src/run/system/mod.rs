@@ -16,6 +16,7 @@ use quell_linear::averaging::AveragingError;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion};
 use quell_model::System;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -70,9 +71,11 @@ pub fn oscillating(units: UnitSystem, frequency: f64) -> String {
 ///
 /// # Errors
 /// A complaint about a range that does not ascend from above 0.
-pub(crate) fn checked_frequencies((from, to): (f64, f64)) -> Result<(f64, f64), Failure> {
+pub(crate) fn checked_frequencies(
+    RealInterval { lower: from, upper: to }: RealInterval,
+) -> Result<RealInterval, Failure> {
     if from > 0.0 && to > from && to.is_finite() {
-        return Ok((from, to));
+        return Ok(RealInterval::new(from, to));
     }
     let allowed = "two positive numbers, the second above the first";
     Err(Complaint::option("--frequency", format!("{from}:{to}"), allowed).into())

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use quell_model::system::Mechanical;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::{has_equations, modes};
@@ -30,7 +31,10 @@ pub(crate) fn slowest_period(study: &SystemStudy, option: &'static str) -> Resul
 
 /// Period of the slowest oscillation of the structure that the run contains, at the beginning of the run where its speed varies; of a
 /// structure without one a fiftieth of the run.
-pub fn natural_period(study: &SystemStudy, (from, until): (f64, f64)) -> f64 {
+pub fn natural_period(
+    study: &SystemStudy,
+    RealInterval { lower: from, upper: until }: RealInterval,
+) -> f64 {
     let length = until - from;
     let periods = natural_frequencies(study, from).ok().map(|found| {
         let periods = found.into_iter().map(|natural| TAU / natural);

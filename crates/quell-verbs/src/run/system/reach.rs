@@ -7,6 +7,7 @@ use quell_linear::harmonic::response;
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::polar::modulus;
 use quell_numerics::roots::{Closeness, minimise};
 use serde_json::Value as Json;
@@ -94,7 +95,7 @@ pub fn without_waves(
 ///
 /// # Errors
 /// A complaint about the range; [`Failure::Failed`] without steady sliding or dither.
-pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Failure> {
+pub fn run(study: &SystemStudy, range: Option<RealInterval>) -> Result<Reaches, Failure> {
     has_equations(study, "resonances")?;
     let system = study.system();
     if system.inputs.is_empty() {
@@ -103,7 +104,8 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
     let linear = Linearised::new(system).map_err(|why| failed("resonances", why))?;
     let waves = system.waves();
     let own = waves.map(|wave| wave.frequency).fold(0.0, f64::max);
-    let (from, to) = checked_frequencies(range.unwrap_or((0.1 * own, 10.0 * own)))?;
+    let RealInterval { lower: from, upper: to } =
+        checked_frequencies(range.unwrap_or(RealInterval::new(0.1 * own, 10.0 * own)))?;
     // The quotient of the ends may overflow, their roots do not.
     let half = libm::log(libm::sqrt(to) / libm::sqrt(from));
     let share = |k: usize| k as f64 / (POINTS - 1) as f64;
@@ -126,7 +128,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
         let within: Vec<f64> =
             rows.filter(|(w, row)| known(**w, row)).map(|(frequency, _)| *frequency).collect();
         if within.len() < frequencies.len() {
-            return Err(beyond_range((from, to), &within));
+            return Err(beyond_range(RealInterval::new(from, to), &within));
         }
         for contact in 0..system.contacts.len() {
             let at =
@@ -144,7 +146,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
 
 /// The complaint about a range of frequencies at some of which the equations of the structure overflow.
 /// `within` has those at which they do not.
-fn beyond_range((from, to): (f64, f64), within: &[f64]) -> Failure {
+fn beyond_range(RealInterval { lower: from, upper: to }: RealInterval, within: &[f64]) -> Failure {
     let allowed = match (within.first(), within.last()) {
         (Some(first), Some(last)) => format!(
             "a range between the angular frequencies {} and {}: beyond them the equations of the structure overflow",

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use quell_linear::averaging::DitheredContact;
 use quell_model::System;
+use quell_numerics::interval::RealInterval;
 
 use super::force;
 use crate::study::{SystemStudy, UnitSystem};
@@ -52,9 +53,9 @@ pub(crate) fn opened(
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactRanges {
     /// The first and last value at which the contact opens.
-    opens: Vec<Option<(f64, f64)>>,
+    opens: Vec<Option<RealInterval>>,
     /// The same for slip outside the range of its law.
-    leaves_law: Vec<Option<(f64, f64)>>,
+    leaves_law: Vec<Option<RealInterval>>,
 }
 
 impl ContactRanges {
@@ -69,9 +70,10 @@ impl ContactRanges {
         let count = system.contacts.len();
         ranges.opens.resize(count, None);
         ranges.leaves_law.resize(count, None);
-        let widen = |range: &mut Option<(f64, f64)>| {
-            let (from, to) = range.unwrap_or((value, value));
-            *range = Some((from.min(value), to.max(value)));
+        let widen = |range: &mut Option<RealInterval>| {
+            let RealInterval { lower: from, upper: to } =
+                range.unwrap_or(RealInterval::new(value, value));
+            *range = Some(RealInterval::new(from.min(value), to.max(value)));
         };
         for (index, contact) in system.contacts.iter().enumerate() {
             let found = dithered.map(|contacts| &contacts[index]);
@@ -99,7 +101,7 @@ impl ContactRanges {
     pub(super) fn warnings(
         &self,
         study: &SystemStudy,
-        where_: impl Fn((f64, f64)) -> String,
+        where_: impl Fn(RealInterval) -> String,
     ) -> Vec<String> {
         let contacts = || study.system().contacts.iter();
         let opens = contacts().zip(&self.opens).filter_map(|(contact, range)| {

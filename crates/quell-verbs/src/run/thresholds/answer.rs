@@ -6,6 +6,7 @@ use quell_dynamics::orbit::{
 };
 use quell_dynamics::response::BAND_END;
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::curves::put_contacts;
@@ -112,7 +113,7 @@ impl Thresholds {
 
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
-        let (from, to) = self.request.window;
+        let RealInterval { lower: from, upper: to } = self.request.window;
         let unit = study.unit_of(&self.request.parameter).unwrap_or("1");
         let mut fields = Fields::in_units(study.units());
         fields

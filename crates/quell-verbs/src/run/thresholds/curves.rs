@@ -7,6 +7,7 @@ use quell_dynamics::orbit::{
 use quell_linear::averaging::{Averaging, Becomes, DitheredSystem, critical_amplitudes};
 use quell_model::units::Quantity;
 use quell_model::{RefusedNumbers, System};
+use quell_numerics::interval::RealInterval;
 use serde_json::{Value as Json, json};
 
 use super::super::slip::SlipReached;
@@ -37,11 +38,11 @@ pub struct CurvesRequest {
     /// Path of the parameter whose thresholds are followed.
     pub parameter: String,
     /// Its window, first and last value in the unit of that key.
-    pub window: (f64, f64),
+    pub window: RealInterval,
     /// Path of the parameter along which they are followed, likewise.
     pub along: String,
     /// Its window, likewise.
-    pub between: (f64, f64),
+    pub between: RealInterval,
 }
 
 /// A boundary of averaging in the same plane: (second parameter, amplitude), both in the units of their keys.
@@ -58,14 +59,14 @@ impl AveragedBoundary {
     /// instability are separate curves.
     fn along(
         limit: bool,
-        (first, last): (f64, f64),
+        window: RealInterval,
         boundaries: &[&dyn Fn(f64) -> Option<f64>],
     ) -> Self {
         let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
         for amplitude in boundaries {
             let mut piece = Vec::new();
             for k in 0..=AVERAGED {
-                let along = first + (last - first) * f64::from(k) / f64::from(AVERAGED);
+                let along = window.lower + window.width() * f64::from(k) / f64::from(AVERAGED);
                 match amplitude(along) {
                     Some(amplitude) => piece.push((along, amplitude)),
                     None if piece.is_empty() => {}
@@ -115,8 +116,8 @@ pub fn tracked(request: &CurvesRequest) -> TrackRequest {
 
 /// Whether some dither acts somewhere in the plane.
 pub fn is_dithered_in(study: &SystemStudy, request: &CurvesRequest) -> bool {
-    let (first, last) = request.window;
-    let (begin, end) = request.between;
+    let RealInterval { lower: first, upper: last } = request.window;
+    let RealInterval { lower: begin, upper: end } = request.between;
     let model = study.model();
     let corners = [(first, begin), (first, end), (last, begin), (last, end)];
     study.system().is_dithered()
@@ -141,18 +142,17 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<Curves, Failu
         let numbers = [(ids[0].clone(), values[0]), (ids[1].clone(), values[1])];
         model.at(&numbers).map_err(RefusedNumbers::by_study)
     };
-    let middle = |(from, to): (f64, f64)| 0.5 * (from + to);
     let ends = [
-        ("--from", request.window.0, true),
-        ("--to", request.window.1, true),
-        ("--between", request.between.0, false),
-        ("--between", request.between.1, false),
+        ("--from", request.window.lower, true),
+        ("--to", request.window.upper, true),
+        ("--between", request.between.lower, false),
+        ("--between", request.between.upper, false),
     ];
     for (option, value, is_first) in ends {
         let values = if is_first {
-            [value, middle(request.between)]
+            [value, request.between.middle()]
         } else {
-            [middle(request.window), value]
+            [request.window.middle(), value]
         };
         at(&values).map_err(|why| {
             let path = if is_first { parameter } else { along };
@@ -180,7 +180,7 @@ fn averaged(
     request: &CurvesRequest,
     at: &SystemAt<'_>,
 ) -> Vec<AveragedBoundary> {
-    let (least, most) = request.window;
+    let RealInterval { lower: least, upper: most } = request.window;
     // A peak force is in newtons under every key of a study with units.
     if study.dither_of(&request.parameter) != Some(0) {
         return Vec::new();
@@ -259,7 +259,12 @@ impl Curves {
 
     /// The curves and where they end inside the windows, in a few sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let CurvesRequest { parameter, along, between: (first, last), .. } = &self.request;
+        let CurvesRequest {
+            parameter,
+            along,
+            between: RealInterval { lower: first, upper: last },
+            ..
+        } = &self.request;
         let (from, to) = (value_at(study, along, *first), value_at(study, along, *last));
         let [parameter, along] = [parameter, along].map(|path| quantity_at(path));
         let count = self.found.curves.len();
@@ -344,10 +349,10 @@ impl Curves {
             .plain("sentence", self.sentence(study))
             .plain("protocol", "local: Floquet multipliers of the periodic motion")
             .plain("parameter", parameter.as_str())
-            .measured("from", unit, window.0)
-            .measured("to", unit, window.1)
+            .measured("from", unit, window.lower)
+            .measured("to", unit, window.upper)
             .plain("along", along.as_str())
-            .measured("between", across, vec![between.0, between.1])
+            .measured("between", across, vec![between.lower, between.upper])
             .plain("state_names", study.system().state_names())
             .list("curves", curves)
             .list("averaged", averaged)

@@ -18,6 +18,7 @@ use quell_dynamics::orbit::{
 use quell_dynamics::response::dither_reaches_the_band;
 use quell_linear::growth::Verdict;
 use quell_model::{RefusedNumbers, System};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 use super::protocol::Protocol;
@@ -48,7 +49,7 @@ pub struct ThresholdsRequest {
     /// Path of the parameter.
     pub parameter: String,
     /// First and last value, in the unit of that key.
-    pub window: (f64, f64),
+    pub window: RealInterval,
     /// Numbers of a state near which the motion to follow is searched at the first value, and its number of dither periods; the
     /// base response if `None`.
     pub near: Option<(StateNumbers, u32)>,
@@ -94,7 +95,7 @@ pub struct Thresholds {
 pub(super) fn ends_are_valid(
     study: &SystemStudy,
     path: &str,
-    (from, to): (f64, f64),
+    RealInterval { lower: from, upper: to }: RealInterval,
 ) -> Result<(), Failure> {
     let model = study.model();
     let parameter = model.parameter(path)?;
@@ -109,7 +110,7 @@ pub(super) fn ends_are_valid(
 
 /// Whether some dither acts at an end of the window.
 pub fn is_dithered_within(study: &SystemStudy, request: &ThresholdsRequest) -> bool {
-    let (from, to) = request.window;
+    let RealInterval { lower: from, upper: to } = request.window;
     let model = study.model();
     let Ok(parameter) = model.parameter(&request.parameter) else { return false };
     study.system().is_dithered()
@@ -148,14 +149,14 @@ pub fn run(study: &SystemStudy, request: &ThresholdsRequest) -> Result<Threshold
         // A dither of amplitude 0 has no period of its own.
         Ok(if dithered { system } else { system.undithered() })
     };
-    let (from, to) = request.window;
-    ends_are_valid(study, path, (from, to))?;
+    let RealInterval { lower: from, upper: to } = request.window;
+    ends_are_valid(study, path, request.window)?;
     let local = match &request.near {
         Some((numbers, periods)) => {
             let guess = start_with(study, numbers)?.state;
-            branch_thresholds(&at, (from, to), STEPS, Some((&guess, *periods)))
+            branch_thresholds(&at, from, to, STEPS, Some((&guess, *periods)))
         }
-        None => branch_thresholds(&at, (from, to), STEPS, None),
+        None => branch_thresholds(&at, from, to, STEPS, None),
     };
     if let Err(why) = &local
         && (request.protocols.is_empty() || request.near.is_some())
@@ -240,7 +241,7 @@ impl Thresholds {
                 }
             }
         }
-        let (from, to) = self.request.window;
+        let RealInterval { lower: from, upper: to } = self.request.window;
         for (protocol, switches) in &self.runs {
             let changes = switches.changes.iter().map(|change| change.value);
             for system in
@@ -256,7 +257,7 @@ impl Thresholds {
 }
 
 /// The changes of a run over a window, with the runs at its values side by side.
-fn side_by_side(run: &VariedRun<'_>, window: (f64, f64)) -> RunSwitches {
+fn side_by_side(run: &VariedRun<'_>, window: RealInterval) -> RunSwitches {
     let values: Vec<f64> = values_tried(window, TRIED).collect();
     let outcomes: Vec<(f64, RunOutcome)> =
         values.in_parallel(|value| (*value, run.outcome(*value))).collect();

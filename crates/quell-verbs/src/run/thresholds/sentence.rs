@@ -5,6 +5,7 @@ use quell_dynamics::orbit::{
     BranchEnding, BranchThresholds, NoOrbit, OrbitVerdict, ResponseGap, Threshold, ThresholdKind,
 };
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 
 use super::Thresholds;
 use super::curves::kind_in_words;
@@ -194,13 +195,13 @@ impl Thresholds {
     }
 
     fn without_response(&self, parameter: &NamedParameter<'_>, why: &NoOrbit) -> String {
-        let first = parameter.at(self.request.window.0);
+        let first = parameter.at(self.request.window.lower);
         let again = self.again(parameter).map_or(String::new(), |again| format!("; {again}"));
         format!("At {first} {} was not found: {why}{again}.", self.subject())
     }
 
     fn again(&self, parameter: &NamedParameter<'_>) -> Option<String> {
-        let last = parameter.at(self.request.window.1);
+        let last = parameter.at(self.request.window.upper);
         self.resumes.then(|| {
             format!(
                 "at {last} a base response exists again (begin the range beyond the gap to find its thresholds)"
@@ -217,7 +218,7 @@ impl Thresholds {
         let Some(first) = local.branch.first() else { return (Vec::new(), None) };
         let path = &self.request.parameter;
         let mut intervals = Vec::new();
-        let mut from = Limit::of_range(self.request.window.0);
+        let mut from = Limit::of_range(self.request.window.lower);
         let mut answer = OrbitVerdict::of(first.radius, 0.0);
         let mut gaps = local.gaps.iter().peekable();
         for threshold in &local.thresholds {
@@ -247,7 +248,7 @@ impl Thresholds {
             intervals.push(Interval { from, to: low, answer });
             from = high;
         }
-        let to = super::answer::end_of(local.ending).unwrap_or(self.request.window.1);
+        let to = super::answer::end_of(local.ending).unwrap_or(self.request.window.upper);
         intervals.push(Interval { from, to: Limit::of_range(to), answer });
         (merged(intervals), None)
     }
@@ -408,7 +409,10 @@ fn listed(each: &[String], and: &str) -> String {
 }
 
 /// The intervals in which runs have the same outcome.
-fn runs((from, to): (f64, f64), switches: &RunSwitches) -> Vec<Interval<Option<bool>>> {
+fn runs(
+    RealInterval { lower: from, upper: to }: RealInterval,
+    switches: &RunSwitches,
+) -> Vec<Interval<Option<bool>>> {
     let first = (Limit::of_range(from), switches.first.is_quiet());
     let changes = switches.changes.iter();
     let changed =

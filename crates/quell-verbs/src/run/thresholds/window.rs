@@ -3,6 +3,7 @@
 use quell_design::quench::amplitude_limit;
 use quell_model::System;
 use quell_model::profile::Wave;
+use quell_numerics::interval::RealInterval;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::run::system::failed;
@@ -26,10 +27,10 @@ pub fn window_of(
     study: &SystemStudy,
     path: &str,
     ends: (Option<f64>, Option<f64>),
-    along: Option<(&str, (f64, f64))>,
-) -> Result<(f64, f64), Failure> {
+    along: Option<(&str, RealInterval)>,
+) -> Result<RealInterval, Failure> {
     if let (Some(from), Some(to)) = ends {
-        return Ok((from, to));
+        return Ok(RealInterval::new(from, to));
     }
     if path == AMPLITUDE && !study.system().has_waves() {
         let allowed = "thresholds are those of its amplitude where no --parameter is given; add [dither], or give --parameter, --from and --to";
@@ -40,12 +41,12 @@ pub fn window_of(
     let to = match (ends.1, along) {
         (Some(to), _) => VariedAmplitude::of(study, path, None).map(|_| to),
         (None, None) => limit(None),
-        (None, Some((along, (low, high)))) => (0..=PLACES)
+        (None, Some((along, RealInterval { lower: low, upper: high }))) => (0..=PLACES)
             .map(|place| low + (high - low) * f64::from(place) / f64::from(PLACES))
             .map(|value| limit(Some((along, value))))
             .try_fold(0.0, |most: f64, limit| Ok(most.max(limit?))),
     };
-    Ok((ends.0.unwrap_or(0.0), to?))
+    Ok(RealInterval::new(ends.0.unwrap_or(0.0), to?))
 }
 
 /// A system whose dither of `input` has an amplitude that a path sets.

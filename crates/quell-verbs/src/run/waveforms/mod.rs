@@ -26,6 +26,7 @@ use quell_linear::spectrum::spectrum;
 use quell_model::profile::Wave;
 use quell_model::waveform::Burst;
 use quell_model::{System, Waveform};
+use quell_numerics::interval::RealInterval;
 use serde_json::Value as Json;
 
 pub use comparison::{COLUMNS, CostColumn};
@@ -71,7 +72,7 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
         let wave = Wave { waveform: waveform.clone(), amplitude: 1.0, ..first.clone() };
         let unit = with_wave(system.clone(), 0, |_| wave.clone());
         let range = first_averaged(&unit, 0);
-        let quiet_without = range.as_ref().is_ok_and(|(low, _)| *low == 0.0);
+        let quiet_without = range.as_ref().is_ok_and(|range| range.lower == 0.0);
         let averaged = range.map_err(NoLeastDither::from).and_then(least);
         let without_state = averaged.as_ref().ok().and_then(|least| {
             let average = DitheredSystem::new(&unit).ok()?;
@@ -191,7 +192,9 @@ fn exact(system: &System, quiet_without: bool) -> Result<LeastDither, NoLeastDit
 ///
 /// # Errors
 /// That all of them are.
-fn least((low, high): (f64, f64)) -> Result<LeastDither, NoLeastDither> {
+fn least(
+    RealInterval { lower: low, upper: high }: RealInterval,
+) -> Result<LeastDither, NoLeastDither> {
     if low == 0.0 {
         return Err(NotQuenched::QuietWithout.into());
     }

@@ -39,50 +39,48 @@ pub(super) fn drawn(PlotPoint { x: left, y: level }: PlotPoint, actuator: &Actua
 
 /// Discs on each other.
 fn stack(left: f64, level: f64) -> Vec<SketchShape> {
+    let at = PlotPoint::new;
     let block = SketchShape::Block {
-        corner: PlotPoint::new(left, level - HALF),
+        corner: at(left, level - HALF),
         size: FrameSize::new(WIDTH, 2.0 * HALF),
     };
     let discs = (1..6).map(|k| {
         let x = left + WIDTH * f64::from(k) / 6.0;
-        line(vec![PlotPoint::new(x, level - HALF), PlotPoint::new(x, level + HALF)])
+        line(vec![at(x, level - HALF), at(x, level + HALF)])
     });
     [block].into_iter().chain(discs).collect()
 }
 
 /// A magnet that is open on the left, with windings inside.
 fn coil(left: f64, level: f64) -> Vec<SketchShape> {
+    let at = PlotPoint::new;
     let (inner, end) = (left + 8.0, left + WIDTH);
     let magnet = line(vec![
-        PlotPoint::new(inner, level - HALF),
-        PlotPoint::new(end, level - HALF),
-        PlotPoint::new(end, level + HALF),
-        PlotPoint::new(inner, level + HALF),
+        at(inner, level - HALF),
+        at(end, level - HALF),
+        at(end, level + HALF),
+        at(inner, level + HALF),
     ]);
     let turns = (0..4).map(|k| {
         let x = inner + 1.0 + 4.0 * f64::from(k);
-        line(vec![PlotPoint::new(x, level + 4.0), PlotPoint::new(x + 3.0, level - 4.0)])
+        line(vec![at(x, level + 4.0), at(x + 3.0, level - 4.0)])
     });
-    let rod = line(vec![PlotPoint::new(left, level), PlotPoint::new(inner + 1.0, level)]);
+    let rod = line(vec![at(left, level), at(inner + 1.0, level)]);
     [magnet, rod].into_iter().chain(turns).collect()
 }
 
 /// A circle on a shaft.
 fn motor(left: f64, level: f64) -> Vec<SketchShape> {
+    let at = PlotPoint::new;
     let radius = HALF + 2.0;
     let centre = left + WIDTH - radius - 4.0;
     let corner = |k: u32| {
         let (sin, cos) = libm::sincos(TAU * f64::from(k) / f64::from(CORNERS));
-        PlotPoint::new(centre + radius * cos, level + radius * sin)
+        at(centre + radius * cos, level + radius * sin)
     };
-    let shaft = line(vec![PlotPoint::new(left, level), PlotPoint::new(centre - radius, level)]);
-    let foot =
-        line(vec![PlotPoint::new(centre + radius, level), PlotPoint::new(left + WIDTH, level)]);
-    let turn = SketchShape::Turn {
-        centre: PlotPoint::new(centre, level),
-        radius: 4.5,
-        angles: (300.0, 30.0),
-    };
+    let shaft = line(vec![at(left, level), at(centre - radius, level)]);
+    let foot = line(vec![at(centre + radius, level), at(left + WIDTH, level)]);
+    let turn = SketchShape::Turn { centre: at(centre, level), radius: 4.5, angles: (300.0, 30.0) };
     vec![line((0..=CORNERS).map(corner).collect()), shaft, foot, turn]
 }
 

@@ -3,6 +3,7 @@
 use quell_model::parameter::{NORMAL_STIFFNESS, TANGENTIAL_STIFFNESS};
 use quell_model::units::Quantity;
 use quell_model::{Direction, Profile};
+use quell_numerics::interval::RealInterval;
 
 use super::actuator;
 use super::contact_state::StateMark;
@@ -49,29 +50,16 @@ pub(super) fn draw(sheet: Sketch, study: &BeltStudy) -> Sketch {
 }
 
 fn structure(sheet: Sketch, study: &BeltStudy, height: f64) -> Sketch {
+    let at = PlotPoint::new;
     let si = study.scales().is_some();
-    let wall = SketchShape::Ground {
-        from: PlotPoint::new(0.0, height + 2.0),
-        to: PlotPoint::new(0.0, -2.0),
-    };
-    let mass = SketchShape::Block {
-        corner: PlotPoint::new(MASS, 0.0),
-        size: FrameSize::new(WIDTH, height),
-    };
-    let spring =
-        SketchShape::Spring { from: PlotPoint::new(0.0, 9.0), to: PlotPoint::new(MASS, 9.0) };
-    let damper =
-        SketchShape::Damper { from: PlotPoint::new(0.0, 27.0), to: PlotPoint::new(MASS, 27.0) };
+    let wall = SketchShape::Ground { from: at(0.0, height + 2.0), to: at(0.0, -2.0) };
+    let mass = SketchShape::Block { corner: at(MASS, 0.0), size: FrameSize::new(WIDTH, height) };
+    let spring = SketchShape::Spring { from: at(0.0, 9.0), to: at(MASS, 9.0) };
+    let damper = SketchShape::Damper { from: at(0.0, 27.0), to: at(MASS, 27.0) };
     let (m, k, c) = if si { ("$m$", "$k$", "$c$") } else { ("1", "1", "$2ζ$") };
-    let way = SketchShape::Arrow {
-        from: PlotPoint::new(MASS + 0.5 * WIDTH, -9.0),
-        to: PlotPoint::new(MASS + WIDTH, -9.0),
-    };
+    let way = SketchShape::Arrow { from: at(MASS + 0.5 * WIDTH, -9.0), to: at(MASS + WIDTH, -9.0) };
     let foot = SketchShape::Line {
-        points: vec![
-            PlotPoint::new(MASS + 0.5 * WIDTH, -13.0),
-            PlotPoint::new(MASS + 0.5 * WIDTH, -5.0),
-        ],
+        points: vec![at(MASS + 0.5 * WIDTH, -13.0), at(MASS + 0.5 * WIDTH, -5.0)],
         style: crate::plot::LineStyle::Solid,
     };
     sheet
@@ -93,6 +81,7 @@ fn structure(sheet: Sketch, study: &BeltStudy, height: f64) -> Sketch {
 }
 
 fn contact(sheet: Sketch, study: &BeltStudy, letters: &Letters, height: f64) -> Sketch {
+    let at = PlotPoint::new;
     let mark = StateMark::of(study.belt().friction(), study.belt().tangential_stiffness());
     let top = height + mark.map_or(0.0, StateMark::height);
     let belt = SketchShape::Belt {
@@ -101,16 +90,16 @@ fn contact(sheet: Sketch, study: &BeltStudy, letters: &Letters, height: f64) -> 
         radius: 11.0,
     };
     let velocity = SketchShape::Arrow {
-        from: PlotPoint::new(MASS + WIDTH + 16.0, top - 6.0),
-        to: PlotPoint::new(MASS + WIDTH + 46.0, top - 6.0),
+        from: at(MASS + WIDTH + 16.0, top - 6.0),
+        to: at(MASS + WIDTH + 46.0, top - 6.0),
     };
     let load = SketchShape::Arrow {
-        from: PlotPoint::new(MASS + 0.25 * WIDTH, -34.0),
-        to: PlotPoint::new(MASS + 0.25 * WIDTH, -1.0),
+        from: at(MASS + 0.25 * WIDTH, -34.0),
+        to: at(MASS + 0.25 * WIDTH, -1.0),
     };
     let friction = SketchShape::Arrow {
-        from: PlotPoint::new(MASS - 24.0, height - 6.0),
-        to: PlotPoint::new(MASS - 1.0, height - 6.0),
+        from: at(MASS - 24.0, height - 6.0),
+        to: at(MASS - 1.0, height - 6.0),
     };
     let ink = SketchInk::Contact;
     let within = (MASS + 8.0, MASS + WIDTH - 10.0);
@@ -138,6 +127,7 @@ fn contact(sheet: Sketch, study: &BeltStudy, letters: &Letters, height: f64) -> 
 }
 
 fn dithers(mut sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
+    let at = PlotPoint::new;
     let dithers = study.belt().dithers();
     let (mut rows, mut columns) = (0.0, 0.0);
     for (place, dither) in dithers.iter().enumerate() {
@@ -148,25 +138,25 @@ fn dithers(mut sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
             Direction::Tangential => {
                 let level = 12.0 + ROW * rows;
                 rows += 1.0;
-                let from = PlotPoint::new(MASS + WIDTH + 1.0, level);
-                let to = PlotPoint::new(MASS + WIDTH + 27.0, level);
-                (SketchShape::Arrow { from, to }, PlotPoint::new(to.x + 13.0, level))
+                let from = at(MASS + WIDTH + 1.0, level);
+                let to = at(MASS + WIDTH + 27.0, level);
+                (SketchShape::Arrow { from, to }, at(to.x + 13.0, level))
             }
             Direction::Normal => {
                 let across = MASS + 0.25 * WIDTH + 22.0 + 46.0 * columns;
                 columns += 1.0;
                 // The vertical arrow is next to that of the load and ends above the mass.
                 let arrow = SketchShape::Arrow {
-                    from: PlotPoint::new(across - 12.0, -40.0),
-                    to: PlotPoint::new(across - 12.0, -16.0),
+                    from: at(across - 12.0, -40.0),
+                    to: at(across - 12.0, -16.0),
                 };
-                (arrow, PlotPoint::new(across, -32.0))
+                (arrow, at(across, -32.0))
             }
         };
         let given = study.kind().system().actuator();
         let given = given.filter(|_| place == 0 && dither.direction == Direction::Tangential);
         if let Some(actuator) = given {
-            sheet = sheet.with(actuator::drawn(PlotPoint::new(wave.x + 13.0, wave.y), actuator));
+            sheet = sheet.with(actuator::drawn(at(wave.x + 13.0, wave.y), actuator));
         }
         let sides = if given.is_some() { [Above, Below] } else { [Right, Above] };
         let wave = SketchShape::Wave { at: wave, glyph: glyph(&dither.waveform) };
@@ -204,7 +194,7 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
     let over_time = |letter: &str, quantity, value, profile: Option<&Profile>| match profile {
         None => equal(letter, quantity, value),
         Some(profile) => {
-            let (least, largest) = profile.bounds();
+            let RealInterval { lower: least, upper: largest } = profile.bounds();
             format!(
                 "{} to {} over time",
                 equal(letter, quantity, least),

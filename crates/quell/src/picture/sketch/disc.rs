@@ -7,6 +7,7 @@ use quell_model::parameter::disc::{
     LOAD_NORMAL, LOAD_STATIC, LOAD_STIFFNESS, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use quell_model::profile::Profile;
+use quell_numerics::interval::RealInterval;
 
 use super::disc_load::{SECTION_WIDTH, section};
 use super::symbols::{further, index, indexed, law_items, measured, number, wave_items};
@@ -126,7 +127,7 @@ fn key(sheet: Sketch, study: &DiscStudy) -> Sketch {
     let moving = if disc.is_stiffened() { "disc rotates, loads at rest" } else { "loads rotate" };
     let speed = match disc.drive().map(Profile::bounds) {
         None => format!("$Ω$ = {}", number(disc.speed())),
-        Some((least, largest)) => {
+        Some(RealInterval { lower: least, upper: largest }) => {
             format!("$Ω$ from {} to {} over time", number(least), number(largest))
         }
     };
@@ -193,7 +194,9 @@ fn load_items(study: &DiscStudy, place: usize, load: &Load) -> Vec<String> {
         Some(normal) => items.push(item("N", LOAD_NORMAL, normal)),
         None => items.push(item("f", LOAD_FRICTION, load.friction)),
     }
-    if let Some((least, largest)) = load.share.as_ref().map(Profile::bounds) {
+    if let Some(RealInterval { lower: least, upper: largest }) =
+        load.share.as_ref().map(Profile::bounds)
+    {
         items.push(format!("times {} to {} over time", number(least), number(largest)));
     }
     if load.static_load != 0.0 {

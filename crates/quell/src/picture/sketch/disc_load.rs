@@ -40,6 +40,7 @@ pub(super) fn section(sheet: Sketch, disc: &Disc, load: &Load, index: &str, left
 }
 
 fn chain(mut sheet: Sketch, load: &Load, index: &str, middle: f64) -> Sketch {
+    let at = PlotPoint::new;
     let body = (load.mass > 0.0).then(|| (indexed("m", index), "mass of the load on the disc"));
     let above = |pad: bool, caliper: bool| match (pad, caliper) {
         (true, _) => "the pad",
@@ -73,14 +74,12 @@ fn chain(mut sheet: Sketch, load: &Load, index: &str, middle: f64) -> Sketch {
         if let Some((label, name)) = stage.body {
             level -= BODY;
             let shape = SketchShape::Block {
-                corner: PlotPoint::new(middle - 24.0, level),
+                corner: at(middle - 24.0, level),
                 size: FrameSize::new(48.0, BODY),
             };
             sheet = sheet.with(SketchPart::new("mass", name, shape).label(label, &[Inside]));
         }
-        let line = |across: f64| {
-            [level, level - SPRING].map(|level| PlotPoint::new(middle + across, level))
-        };
+        let line = |across: f64| [level, level - SPRING].map(|level| at(middle + across, level));
         let ([from, to], [rod, cylinder]) = (line(-APART), line(APART));
         let (spring, damper) =
             (SketchShape::Spring { from, to }, SketchShape::Damper { from: rod, to: cylinder });
@@ -91,19 +90,18 @@ fn chain(mut sheet: Sketch, load: &Load, index: &str, middle: f64) -> Sketch {
             .with(SketchPart::new("damper", of_damper, damper).label(stage.damper, &[Right]));
         level -= SPRING;
     }
-    let support = SketchShape::Ground {
-        from: PlotPoint::new(middle - 28.0, level),
-        to: PlotPoint::new(middle + 28.0, level),
-    };
+    let support =
+        SketchShape::Ground { from: at(middle - 28.0, level), to: at(middle + 28.0, level) };
     sheet.with(SketchPart::new("ground", "support", support))
 }
 
 /// Friction, normal load and dither at the contact.
 fn forces(sheet: Sketch, disc: &Disc, load: &Load, index: &str, middle: f64) -> Sketch {
+    let at = PlotPoint::new;
     let below = DISC + 9.0;
     let friction = SketchShape::Arrow {
-        from: PlotPoint::new(middle + 4.0, below + 8.0),
-        to: PlotPoint::new(middle + 40.0, below + 8.0),
+        from: at(middle + 4.0, below + 8.0),
+        to: at(middle + 40.0, below + 8.0),
     };
     let part = SketchPart::new("friction", "friction force on the disc", friction);
     let part = part
@@ -117,8 +115,8 @@ fn forces(sheet: Sketch, disc: &Disc, load: &Load, index: &str, middle: f64) -> 
     };
     if let Some((name, label)) = pressing {
         let shape = SketchShape::Arrow {
-            from: PlotPoint::new(middle - 40.0, DISC - 26.0),
-            to: PlotPoint::new(middle - 40.0, DISC - 1.0),
+            from: at(middle - 40.0, DISC - 26.0),
+            to: at(middle - 40.0, DISC - 1.0),
         };
         let part = SketchPart::new("load", name, shape).ink(SketchInk::Contact);
         sheet = sheet.with(part.label(label, &[Left, Above]));
@@ -128,10 +126,8 @@ fn forces(sheet: Sketch, disc: &Disc, load: &Load, index: &str, middle: f64) -> 
         DiscDither::Normal { .. } => "normal dither of the friction force",
         DiscDither::Tangential { .. } => "tangential dither of the friction force",
     };
-    let shape = SketchShape::Wave {
-        at: PlotPoint::new(middle - 16.0, below + 8.0),
-        glyph: glyph(disc.waveform()),
-    };
+    let shape =
+        SketchShape::Wave { at: at(middle - 16.0, below + 8.0), glyph: glyph(disc.waveform()) };
     let part = SketchPart::new("dither", name, shape).ink(SketchInk::Input);
     sheet.with(part.label("$α$, $R$", &[Left, Below]))
 }

@@ -8,6 +8,7 @@ mod disc_load;
 mod symbols;
 mod system;
 
+use quell_numerics::interval::RealInterval;
 use serde_json::{Value as Json, json};
 
 use super::PictureWidth;
@@ -19,7 +20,7 @@ use crate::study::{Kind, Study, SystemStudy};
 /// Width of a sketch where none is requested (mm).
 pub const DEFAULT_WIDTH_MM: f64 = 120.0;
 /// The narrowest and the widest sketch (mm).
-pub const WIDTHS_MM: (f64, f64) = (80.0, 400.0);
+pub const WIDTHS_MM: RealInterval = RealInterval::new(80.0, 400.0);
 
 /// A width with its unit in mm: mm, cm, in or pt (1/72 in).
 ///
@@ -45,7 +46,7 @@ pub fn width(text: &str) -> Result<f64, Box<Complaint>> {
 /// # Ok::<(), quell::Failure>(())
 /// ```
 pub fn sketch(study: &Study, width_mm: Option<f64>) -> Result<Sketch, Failure> {
-    let (least, most) = WIDTHS_MM;
+    let RealInterval { lower: least, upper: most } = WIDTHS_MM;
     let width_mm = width_mm.unwrap_or(DEFAULT_WIDTH_MM);
     if !(least..=most).contains(&width_mm) {
         let allowed = format!("a width from {least} to {most} mm");

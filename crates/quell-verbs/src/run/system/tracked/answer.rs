@@ -3,6 +3,7 @@
 use quell_linear::growth::Verdict;
 use quell_linear::tracking::{StabilityChange, ThresholdOfStability};
 use quell_model::units::Quantity;
+use quell_numerics::interval::RealInterval;
 use serde_json::{Value as Json, json};
 
 use super::{StabilityCurve, SurfaceAtRest, TrackRequest, TrackedStability};
@@ -21,7 +22,8 @@ impl TrackedStability {
 
     /// The answer in one or two sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let TrackRequest { parameter, window: (from, to), .. } = &self.request;
+        let TrackRequest { parameter, window: RealInterval { lower: from, upper: to }, .. } =
+            &self.request;
         let changes: Vec<String> = self
             .tracked
             .thresholds
@@ -119,7 +121,8 @@ impl TrackedStability {
     /// As JSON.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let mut fields = Fields::in_units(study.units());
-        let TrackRequest { parameter, window: (from, to), along } = &self.request;
+        let TrackRequest { parameter, window: RealInterval { lower: from, upper: to }, along } =
+            &self.request;
         let unit = study.unit_of(parameter).unwrap_or("1");
         fields
             .plain("ok", true)
@@ -137,7 +140,7 @@ impl TrackedStability {
         let found: Vec<Fields> = found.collect();
         // The name of the list in the answer about a belt, and that of a system.
         fields.list("local", found.clone()).list("thresholds", found);
-        if let Some((path, (first, last))) = along {
+        if let Some((path, RealInterval { lower: first, upper: last })) = along {
             let other = study.unit_of(path).unwrap_or("1");
             fields.plain("along", path.clone()).measured("between", other, vec![*first, *last]);
             let curves = self.curves.iter().map(|curve| put_curve(study, [unit, other], curve));
@@ -166,14 +169,14 @@ impl TrackedStability {
     /// Whether there is an answer at the last value again, after a range without one.
     fn resumes(&self) -> bool {
         let last = self.tracked.pieces.last().and_then(|piece| piece.last());
-        let reached = last.is_some_and(|point| point.value >= self.request.window.1);
+        let reached = last.is_some_and(|point| point.value >= self.request.window.upper);
         reached && !self.tracked.unknown.is_empty()
     }
 
     /// The verdict at the first value of the window.
     fn at_from(&self, study: &SystemStudy) -> Fields {
         let mut fields = Fields::in_units(study.units());
-        let from = self.request.window.0;
+        let from = self.request.window.lower;
         let first = self.tracked.pieces.first().and_then(|piece| piece.first());
         match (first, self.tracked.unknown.first()) {
             (Some(point), _) if point.value <= from => {
@@ -275,7 +278,11 @@ impl TrackedStability {
 }
 
 /// A range of a parameter in words.
-fn between(study: &SystemStudy, path: &str, (from, to): (f64, f64)) -> String {
+fn between(
+    study: &SystemStudy,
+    path: &str,
+    RealInterval { lower: from, upper: to }: RealInterval,
+) -> String {
     let to_in_words = value_at(study, path, to);
     if from == to {
         return format!("at the {}", quantity_is(path, &to_in_words));

@@ -13,6 +13,7 @@ use quell_model::RefusedNumbers;
 use quell_model::parameter::NORMAL_LOAD;
 use quell_numerics::continuation::criticality::NoFirstLyapunov;
 use quell_numerics::eigen::EigenError;
+use quell_numerics::interval::RealInterval;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, find_root};
@@ -43,9 +44,9 @@ pub struct TrackRequest {
     /// Path of the parameter.
     pub parameter: String,
     /// Its window in the unit of that key.
-    pub window: (f64, f64),
+    pub window: RealInterval,
     /// A second parameter and its window, along which thresholds are followed.
-    pub along: Option<(String, (f64, f64))>,
+    pub along: Option<(String, RealInterval)>,
 }
 
 /// A curve of thresholds: (second parameter, threshold), ascending.
@@ -147,7 +148,7 @@ pub struct SurfaceAtRest {
 /// Where surfaces come to rest inside a window, ascending.
 fn rests(
     study: &SystemStudy,
-    (parameter, (from, to)): (&ParameterId, (f64, f64)),
+    (parameter, RealInterval { lower: from, upper: to }): (&ParameterId, RealInterval),
     fixed: Option<&(ParameterId, f64)>,
 ) -> Vec<SurfaceAtRest> {
     let model = study.model();
@@ -162,13 +163,16 @@ fn rests(
         grid.filter_map(|value| Some((value, velocities(value)?))).collect();
     let mut found = Vec::new();
     for (index, contact) in study.system().contacts.iter().enumerate() {
-        let moving: Vec<(f64, f64)> = met
+        let moving: Vec<RealInterval> = met
             .iter()
-            .map(|(value, all)| (*value, all[index]))
-            .filter(|(_, v)| *v != 0.0)
+            .map(|(value, all)| RealInterval::new(*value, all[index]))
+            .filter(|RealInterval { upper: v, .. }| *v != 0.0)
             .collect();
         for pair in moving.windows(2) {
-            let [(low, before), (high, after)] = [pair[0], pair[1]];
+            let [
+                RealInterval { lower: low, upper: before },
+                RealInterval { lower: high, upper: after },
+            ] = [pair[0], pair[1]];
             if before * after > 0.0 {
                 continue;
             }
@@ -204,8 +208,8 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
     let tracked = track(&whole, request.window, POINTS);
     let tracked = tracked.map_err(|why| failed("stability", why))?;
     let mut curves = Vec::new();
-    if let Some((along, (from, to))) = &along {
-        let width = request.window.1 - request.window.0;
+    if let Some((along, RealInterval { lower: from, upper: to })) = &along {
+        let width = request.window.width();
         for k in 0..LINES {
             let value = from + (to - from) * k as f64 / (LINES - 1) as f64;
             let line =
@@ -310,21 +314,22 @@ pub(in crate::run) fn understood(
             wrong.push(complaint.suggesting(near));
             continue;
         }
-        if window.0.is_nan() || window.1.is_nan() || window.0 >= window.1 {
-            let allowed = format!("a finite number above {from} {}", window.0);
-            wrong.push(Complaint::option(to, window.1, allowed));
+        if window.lower.is_nan() || window.upper.is_nan() || window.lower >= window.upper {
+            let allowed = format!("a finite number above {from} {}", window.lower);
+            wrong.push(Complaint::option(to, window.upper, allowed));
             continue;
         }
         let model = study.model();
         let parameter = model.parameter(path)?;
-        let [first, last] = [window.0, window.1].map(|end| model.at(&[(parameter.clone(), end)]));
+        let [first, last] =
+            [window.lower, window.upper].map(|end| model.at(&[(parameter.clone(), end)]));
         if first.is_ok_and(|first| last.is_ok_and(|last| first == last)) {
             wrong.push(Complaint::option(option, path.as_str(), OF_THE_EQUATIONS));
         }
     }
     let number = |path: &str| study.address(path).map(|address| address.number).ok();
     let first = number(&request.parameter);
-    let same = |(path, _): &&(String, (f64, f64))| first.is_some() && number(path) == first;
+    let same = |(path, _): &&(String, RealInterval)| first.is_some() && number(path) == first;
     if let Some((path, _)) = request.along.as_ref().filter(same) {
         let allowed = "a parameter other than --parameter";
         wrong.push(Complaint::option("--along", path.as_str(), allowed));

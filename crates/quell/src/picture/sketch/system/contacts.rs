@@ -91,31 +91,30 @@ fn one(
     (body, across): (usize, f64),
     index: &str,
 ) -> Sketch {
+    let at = PlotPoint::new;
     let seat = drawing.grid.seat(body);
     let pad = pad_level(drawing, body, is_compliant(contact));
     let ink = SketchInk::Contact;
     let normal = contact.normal.as_deref().map(|row| drawing.touched(row)).unwrap_or_default();
     let is_own = normal.iter().any(|(touched, _)| *touched == body);
     let drawn_at = normal.iter().find(|(other, _)| reaches(drawing, (body, *other), pad));
-    let block = SketchShape::Block {
-        corner: PlotPoint::new(across - 14.0, pad),
-        size: FrameSize::new(28.0, PAD),
-    };
+    let block =
+        SketchShape::Block { corner: at(across - 14.0, pad), size: FrameSize::new(28.0, PAD) };
     let mut part = SketchPart::new("contact", format!("contact {}", contact.name), block).ink(ink);
     let mut sheet = sheet;
     if is_compliant(contact) && (is_own || drawn_at.is_none()) {
         sheet = stiffness(sheet, contact, (across, seat.bottom(), pad), index);
     } else {
-        let points = vec![PlotPoint::new(across, seat.bottom()), PlotPoint::new(across, pad)];
+        let points = vec![at(across, seat.bottom()), at(across, pad)];
         part = part.and(SketchShape::Line { points, style: LineStyle::Solid });
     }
     sheet = sheet.with(part);
     let spring_at = drawn_at.filter(|_| !is_own && is_compliant(contact)).map(|(other, _)| *other);
     for (other, _) in normal.iter().filter(|(touched, _)| *touched != body) {
         sheet = if spring_at == Some(*other) {
-            approach(sheet, drawing, contact, *other, PlotPoint::new(across, pad), index)
+            approach(sheet, drawing, contact, *other, at(across, pad), index)
         } else {
-            lead(sheet, drawing, contact, (body, *other), PlotPoint::new(across, pad))
+            lead(sheet, drawing, contact, (body, *other), at(across, pad))
         };
     }
     let mut met: Vec<usize> = normal.iter().map(|(touched, _)| *touched).collect();
@@ -123,7 +122,7 @@ fn one(
         for (other, _) in drawing.touched(row).into_iter().filter(|(touched, _)| *touched != body) {
             if !met.contains(&other) {
                 met.push(other);
-                sheet = lead(sheet, drawing, contact, (body, other), PlotPoint::new(across, pad));
+                sheet = lead(sheet, drawing, contact, (body, other), at(across, pad));
             }
         }
     }
@@ -136,12 +135,7 @@ fn one(
         let of = format!(" of contact {}", contact.name);
         sheet = mark.draw(sheet, within, pad + PAD, (&of, &tangential_symbol(index)));
     }
-    loads(
-        sheet,
-        PlotPoint::new(across, pad + PAD + state_height(contact)),
-        contact,
-        (index, from_left),
-    )
+    loads(sheet, at(across, pad + PAD + state_height(contact)), contact, (index, from_left))
 }
 
 /// The spring and damper of a compliant contact, from `top` to `bottom`.
@@ -151,12 +145,11 @@ fn stiffness(
     (across, top, bottom): (f64, f64, f64),
     index: &str,
 ) -> Sketch {
+    let at = PlotPoint::new;
     let has_damper = contact.normal_damping != 0.0;
     let apart = if has_damper { 8.0 } else { 0.0 };
-    let shape = SketchShape::Spring {
-        from: PlotPoint::new(across - apart, top),
-        to: PlotPoint::new(across - apart, bottom),
-    };
+    let shape =
+        SketchShape::Spring { from: at(across - apart, top), to: at(across - apart, bottom) };
     let name = format!("normal stiffness of contact {}", contact.name);
     let label = stiffness_symbol(index);
     let sheet = sheet.with(
@@ -167,10 +160,8 @@ fn stiffness(
     if !has_damper {
         return sheet;
     }
-    let shape = SketchShape::Damper {
-        from: PlotPoint::new(across + apart, top),
-        to: PlotPoint::new(across + apart, bottom),
-    };
+    let shape =
+        SketchShape::Damper { from: at(across + apart, top), to: at(across + apart, bottom) };
     let name = format!("normal damping of contact {}", contact.name);
     let label = indexed("d", index);
     sheet.with(
@@ -206,16 +197,13 @@ fn approach(
     PlotPoint { x: across, y: pad }: PlotPoint,
     index: &str,
 ) -> Sketch {
+    let at = PlotPoint::new;
     let far = drawing.grid.seat(other);
     let sign = (far.middle() - across).signum();
     let corner = far.middle() - sign * 0.3 * far.width;
     let level = pad + 0.5 * PAD;
     let sheet = stiffness(sheet, contact, (corner, far.bottom(), pad - 2.0), index);
-    let points = vec![
-        PlotPoint::new(corner, pad - 2.0),
-        PlotPoint::new(corner, level),
-        PlotPoint::new(across + sign * 14.0, level),
-    ];
+    let points = vec![at(corner, pad - 2.0), at(corner, level), at(across + sign * 14.0, level)];
     let shape = SketchShape::Line { points, style: LineStyle::Solid };
     let name = format!("approach of contact {}", contact.name);
     sheet.with(SketchPart::new("guide", name, shape).ink(SketchInk::Contact))
@@ -229,32 +217,26 @@ fn lead(
     (body, other): (usize, usize),
     PlotPoint { x: across, y: pad }: PlotPoint,
 ) -> Sketch {
+    let at = PlotPoint::new;
     let (seat, far) = (drawing.grid.seat(body), drawing.grid.seat(other));
     let name = format!("contact {} acts on {}", contact.name, drawing.bodies[other].name);
     let is_next = seat.row == far.row && seat.column.abs_diff(far.column) == 1;
     if !is_next {
         let shape = SketchShape::Line {
             points: vec![
-                PlotPoint::new(far.left + 14.0, far.bottom()),
-                PlotPoint::new(far.left + 14.0, far.bottom() + 8.0),
+                at(far.left + 14.0, far.bottom()),
+                at(far.left + 14.0, far.bottom() + 8.0),
             ],
             style: LineStyle::Dashed,
         };
-        let dot = SketchShape::Dot {
-            at: PlotPoint::new(far.left + 14.0, far.bottom() + 8.0),
-            radius: 2.0,
-        };
+        let dot = SketchShape::Dot { at: at(far.left + 14.0, far.bottom() + 8.0), radius: 2.0 };
         let part = SketchPart::new("guide", name, shape).and(dot).ink(SketchInk::Contact);
         return sheet.with(part.label(contact.name.clone(), &[Right, Left]));
     }
     let sign = (far.middle() - across).signum();
     let corner = far.middle() - sign * 0.4 * far.width;
     let level = pad + 0.5 * PAD;
-    let points = vec![
-        PlotPoint::new(across + sign * 14.0, level),
-        PlotPoint::new(corner, level),
-        PlotPoint::new(corner, far.bottom()),
-    ];
+    let points = vec![at(across + sign * 14.0, level), at(corner, level), at(corner, far.bottom())];
     let shape = SketchShape::Line { points, style: LineStyle::Dashed };
     sheet.with(SketchPart::new("guide", name, shape).ink(SketchInk::Contact))
 }
@@ -266,23 +248,24 @@ fn loads(
     contact: &Contact,
     (index, from_left): (&str, bool),
 ) -> Sketch {
+    let at = PlotPoint::new;
     let ink = SketchInk::Contact;
     let of = |noun: &str| format!("{noun} of contact {}", contact.name);
     let surface =
         SketchShape::Surface { ends: PlotRange::new(across - 26.0, across + 26.0), top: level };
     let velocity = SketchShape::Arrow {
-        from: PlotPoint::new(across + 2.0, level + 13.0),
-        to: PlotPoint::new(across + 26.0, level + 13.0),
+        from: at(across + 2.0, level + 13.0),
+        to: at(across + 26.0, level + 13.0),
     };
     let load = SketchShape::Arrow {
-        from: PlotPoint::new(across - 12.0, level + 33.0),
-        to: PlotPoint::new(across - 12.0, level + 7.0),
+        from: at(across - 12.0, level + 33.0),
+        to: at(across - 12.0, level + 7.0),
     };
     // A line from the left would cover the arrow.
     let (tail, head) = if from_left { (15.0, 31.0) } else { (-31.0, -15.0) };
     let friction = SketchShape::Arrow {
-        from: PlotPoint::new(across + tail, level - 4.0),
-        to: PlotPoint::new(across + head, level - 4.0),
+        from: at(across + tail, level - 4.0),
+        to: at(across + head, level - 4.0),
     };
     sheet
         .with(SketchPart::new("surface", of("moving surface"), surface))

@@ -3,6 +3,7 @@
 use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use quell_model::{Contact, Input, Profile};
+use quell_numerics::interval::RealInterval;
 
 use super::body::BodyKind;
 use super::contacts::{stiffness_symbol, tangential_symbol};
@@ -138,7 +139,7 @@ fn contact_row(drawing: &SystemDrawing<'_>, contact: &Contact, index: String) ->
         item(&indexed(letter, &index), value, units.unit(quantity))
     };
     let over_time = |letter: &str, quantity: Quantity, profile: &Profile| {
-        let (least, largest) = profile.bounds();
+        let RealInterval { lower: least, upper: largest } = profile.bounds();
         if least == largest {
             return with(letter, quantity, least);
         }

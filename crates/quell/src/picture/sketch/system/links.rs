@@ -46,29 +46,21 @@ fn named(drawing: &SystemDrawing<'_>, link: &SketchLink, noun: &str) -> String {
 
 /// A spring and a damper above a body, on a support.
 fn support(mut sheet: Sketch, drawing: &SystemDrawing<'_>, link: &SketchLink) -> Sketch {
+    let at = PlotPoint::new;
     let seat = drawing.grid.seat(link.from);
     let top = seat.top - SUPPORT;
     let (left, right) = (seat.left + 12.0, seat.left + 30.0);
     if link.stiffness.is_some() {
-        let shape = SketchShape::Spring {
-            from: PlotPoint::new(left, seat.top),
-            to: PlotPoint::new(left, top),
-        };
+        let shape = SketchShape::Spring { from: at(left, seat.top), to: at(left, top) };
         let part = SketchPart::new("spring", named(drawing, link, "spring"), shape);
         sheet = sheet.with(part.label(link.symbol("k"), &[Left]));
     }
     if link.damping.is_some() {
-        let shape = SketchShape::Damper {
-            from: PlotPoint::new(right, seat.top),
-            to: PlotPoint::new(right, top),
-        };
+        let shape = SketchShape::Damper { from: at(right, seat.top), to: at(right, top) };
         let part = SketchPart::new("damper", named(drawing, link, "damper"), shape);
         sheet = sheet.with(part.label(link.symbol("c"), &[Right]));
     }
-    let shape = SketchShape::Ground {
-        from: PlotPoint::new(left - 10.0, top),
-        to: PlotPoint::new(right + 10.0, top),
-    };
+    let shape = SketchShape::Ground { from: at(left - 10.0, top), to: at(right + 10.0, top) };
     sheet.with(SketchPart::new("ground", "ground", shape))
 }
 
