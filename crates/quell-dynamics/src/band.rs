@@ -23,10 +23,8 @@ pub fn vibration_frequency(system: &System) -> Option<f64> {
     let bare = || Linearised::new(&System { contacts: Vec::new(), ..free.clone() });
     let linear = Linearised::new(&free).or_else(|_| bare()).ok()?;
     let found = spectrum(&linear, &linear.friction()).ok()?;
-    // Of several that may lead, the fastest: vibration above the band would be called quiet.
-    let fastest = found.leaders().iter().map(SmallMotion::frequency).fold(0.0, f64::max);
-    let all = found.motions.iter().map(SmallMotion::frequency);
-    [fastest].into_iter().chain(all).find(|frequency| *frequency > 0.0)
+    // The fastest growing one is the first.
+    found.motions.iter().map(SmallMotion::frequency).find(|frequency| *frequency > 0.0)
 }
 
 /// Whether every spectral line of a motion of this period is above the band of the vibration of a system.

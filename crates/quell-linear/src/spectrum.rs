@@ -14,7 +14,7 @@
 use num_complex::Complex64;
 use quell_numerics::eigen::{Decomposition, EigenError};
 use quell_numerics::matrix::Matrix;
-use quell_numerics::order::ascending_by;
+use quell_numerics::order::descending_by;
 
 use crate::growth::Growth;
 use crate::linearised::{FrictionSlopes, LinearContact, Linearised, Matrices};
@@ -33,22 +33,7 @@ pub struct SmallMotion {
     pub friction_shares: Vec<f64>,
 }
 
-impl MotionSpectrum {
-    /// The motions that may grow fastest by their errors, from the slowest on: a conjugate pair, or all of an undamped structure.
-    pub fn leaders(&self) -> &[SmallMotion] {
-        let rates = self.motions.iter().map(|motion| motion.eigenvalue.re);
-        let largest = rates.fold(f64::NEG_INFINITY, f64::max);
-        let count = self.motions.iter().take_while(|motion| motion.may_exceed(largest)).count();
-        &self.motions[..count]
-    }
-}
-
 impl SmallMotion {
-    /// Whether the motion may grow at this rate by its error.
-    fn may_exceed(&self, rate: f64) -> bool {
-        self.eigenvalue.re + self.error >= rate
-    }
-
     /// |Im λ|.
     pub fn frequency(&self) -> f64 {
         self.eigenvalue.im.abs()
@@ -66,7 +51,7 @@ impl SmallMotion {
 pub struct MotionSpectrum {
     /// Largest growth rate with its bound.
     pub growth: Growth,
-    /// One motion for each eigenvalue, complex conjugates included: those that may lead by their errors from the slowest on, then the others by
+    /// One motion for each eigenvalue, complex conjugates included: those that may lead by their errors from the fastest on, then the others by
     /// falling growth rate.
     pub motions: Vec<SmallMotion>,
 }
@@ -99,11 +84,12 @@ pub fn spectrum(
         let (a, b) = (a.eigenvalue, b.eigenvalue);
         b.re.total_cmp(&a.re).then(a.im.abs().total_cmp(&b.im.abs())).then(b.im.total_cmp(&a.im))
     });
-    // Of those that may lead by their errors the slowest does, as in `growth`: rounding chooses nowhere.
+    // Of those that may lead by their errors the fastest does, as in `growth`: rounding chooses nowhere.
     let largest = motions.first().map_or(f64::NEG_INFINITY, |motion| motion.eigenvalue.re);
-    let (mut leaders, others): (Vec<_>, Vec<_>) =
-        motions.into_iter().partition(|motion: &SmallMotion| motion.may_exceed(largest));
-    ascending_by(&mut leaders, |motion| motion.eigenvalue.im.abs());
+    let (mut leaders, others): (Vec<_>, Vec<_>) = motions
+        .into_iter()
+        .partition(|motion: &SmallMotion| motion.eigenvalue.re + motion.error >= largest);
+    descending_by(&mut leaders, |motion| motion.eigenvalue.im.abs());
     leaders.extend(others);
     Ok(MotionSpectrum { growth, motions: leaders })
 }

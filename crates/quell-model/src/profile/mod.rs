@@ -134,11 +134,13 @@ impl Profile {
         self.mean + course + self.waves.iter().map(|wave| wave.value(time)).sum::<f64>()
     }
 
-    /// Bounds of the value at all times: those of the knots, and the peaks of all waves.
+    /// Bounds of the value at all times: those of the knots and of all waves.
     pub fn bounds(&self) -> RealInterval {
         let knots = self.knots.as_ref().map_or(RealInterval::point(0.0), Knots::range);
-        let waves: f64 = self.waves.iter().map(Wave::peak).sum();
-        RealInterval::new(self.mean + knots.lower - waves, self.mean + knots.upper + waves)
+        let waves = || self.waves.iter().map(Wave::range);
+        let (fall, rise): (f64, f64) =
+            (waves().map(|wave| -wave.lower).sum(), waves().map(|wave| wave.upper).sum());
+        RealInterval::new(self.mean + knots.lower - fall, self.mean + knots.upper + rise)
     }
 }
 

@@ -1,5 +1,7 @@
 //! One wave of a profile.
 
+use quell_numerics::interval::RealInterval;
+
 use super::Knots;
 use crate::waveform::Waveform;
 
@@ -35,10 +37,19 @@ impl Wave {
         band.map_or_else(|| self.repetition(), |[low, _]| low)
     }
 
-    /// Largest magnitude of the wave.
-    pub fn peak(&self) -> f64 {
-        let share = self.envelope.as_ref().map_or(1.0, |knots| knots.range().magnitude());
-        share * self.amplitude.abs() * self.waveform.peak()
+    /// Bounds of the wave at all times: its waveform may fall further than it rises.
+    pub fn range(&self) -> RealInterval {
+        let share = self.envelope.as_ref().map_or(RealInterval::point(1.0), Knots::range);
+        let shape = self.waveform.range();
+        [share.lower, share.upper]
+            .map(|share| {
+                let size = share * self.amplitude;
+                let ends = [size * shape.lower, size * shape.upper];
+                RealInterval::new(ends[0].min(ends[1]), ends[0].max(ends[1]))
+            })
+            .into_iter()
+            .reduce(RealInterval::hull)
+            .unwrap_or_default()
     }
 
     /// Share of the amplitude at the time t.

@@ -46,7 +46,7 @@ impl Decomposition {
         found
     }
 
-    /// The eigenvalue of largest real part, of those that may have it by their errors the one of lowest frequency, so that rounding
+    /// The eigenvalue of largest real part, of those that may have it by their errors the one of highest frequency, so that rounding
     /// chooses nowhere; `None` for a matrix without rows.
     pub fn rightmost(&self) -> Option<Rightmost> {
         let upper = |i: &usize| self.values[*i].im >= 0.0;
@@ -58,8 +58,8 @@ impl Decomposition {
             .collect();
         let highest = near.iter().map(|own| own.value.re + own.error).fold(largest, f64::max);
         let may_lead = near.iter().filter(|own| own.value.re + own.error >= largest);
-        let leader = may_lead.min_by(|a, b| {
-            a.value.im.total_cmp(&b.value.im).then(b.value.re.total_cmp(&a.value.re))
+        let leader = may_lead.max_by(|a, b| {
+            a.value.im.total_cmp(&b.value.im).then(a.value.re.total_cmp(&b.value.re))
         })?;
         Some(Rightmost { error: (highest - leader.value.re).max(f64::MIN_POSITIVE), ..*leader })
     }
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
     use crate::matrix::Matrix;
 
-    /// Undamped oscillators of which rounding decides which is rightmost: the slowest leads, in any order of the coordinates.
+    /// Undamped oscillators of which rounding decides which is rightmost: the fastest leads, in any order of the coordinates.
     #[test]
     fn rounding_does_not_choose_the_leader() {
         let squares = [7.3, 1.9, 4.4, 2.8];
@@ -91,7 +91,7 @@ mod tests {
                 );
             let similar = mixed.solve(&matrix.times(&mixed)).expect("regular");
             let leader = Decomposition::new(&similar).expect("finite").rightmost().expect("rows");
-            assert!((leader.value.im - 1.9_f64.sqrt()).abs() < 1e-12, "{leader:?}");
+            assert!((leader.value.im - 7.3_f64.sqrt()).abs() < 1e-12, "{leader:?}");
             assert!(leader.value.re.abs() <= leader.error && leader.error < 1e-12, "{leader:?}");
         }
     }

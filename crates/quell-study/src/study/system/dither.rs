@@ -417,7 +417,7 @@ fn stays_pressed(
     (contacts, coordinates): (&[Contact], usize),
 ) {
     for (index, contact) in contacts.iter().enumerate() {
-        let mut peaks = 0.0;
+        let mut fall = 0.0;
         let mut last = None;
         for (input, table) in inputs.iter().zip(tables) {
             let Some(Input { target: InputTarget::NormalLoad { contact, .. }, profile }) = input
@@ -425,11 +425,11 @@ fn stays_pressed(
                 continue;
             };
             if *contact == index {
-                peaks += profile.waves().iter().map(Wave::peak).sum::<f64>();
+                fall += profile.waves().iter().map(|wave| -wave.range().lower).sum::<f64>();
                 last = Some(table);
             }
         }
-        let Some(allowed) = lifted(contact, peaks, (contacts.len(), coordinates)) else { continue };
+        let Some(allowed) = lifted(contact, fall, (contacts.len(), coordinates)) else { continue };
         let Some((prefix, _, table)) = last else { continue };
         let twins = DITHER_AMPLITUDE.si.iter().map(|twin| twin.key);
         let sizes = DITHER_SIZES.iter().map(|size| size.key);
@@ -444,22 +444,22 @@ fn stays_pressed(
     }
 }
 
-/// What is allowed where modulations with these peaks lift a contact whose load is prescribed, in a system of so many contacts and
-/// coordinates; `None` if it stays pressed.
+/// What is allowed where modulations that fall so far below their means together lift a contact whose load is prescribed, in a system of so
+/// many contacts and coordinates; `None` if it stays pressed.
 pub(super) fn lifted(
     contact: &Contact,
-    peaks: f64,
+    fall: f64,
     (contacts, coordinates): (usize, usize),
 ) -> Option<String> {
     // The engine of one mass takes a load that touches zero.
     let may_touch = contacts == 1 && coordinates == 1;
     let least = contact.load().bounds().lower;
-    let is_too_much = peaks > least || (peaks == least && !may_touch);
+    let is_too_much = fall > least || (fall == least && !may_touch);
     let few = if may_touch { "at most" } else { "less than" };
     (contact.normal.is_none() && is_too_much).then(|| {
-        let [least, peaks] = [least, peaks].map(|load| digits(load, 6));
+        let [least, fall] = [least, fall].map(|load| digits(load, 6));
         format!(
-            "such that the peaks on contact {} sum to {few} its load {least}: they sum to {peaks}, and a prescribed load must stay positive",
+            "such that the modulations of contact {} take off {few} its load {least}: they take off {fall}, and a prescribed load must stay positive",
             contact.name
         )
     })

@@ -63,9 +63,9 @@ fn opens(reader: &mut Reader, system: &System, given: &[GivenSize]) -> bool {
     for (index, contact) in system.contacts.iter().enumerate() {
         let on = |input: &Input| matches!(input.target, InputTarget::NormalLoad { contact, .. } if contact == index);
         let inputs = system.inputs.iter().enumerate().filter(|(_, input)| on(input));
-        let peaks: f64 =
-            inputs.clone().flat_map(|(_, input)| input.profile.waves()).map(Wave::peak).sum();
-        let Some(allowed) = lifted(contact, peaks, size) else { continue };
+        let waves = inputs.clone().flat_map(|(_, input)| input.profile.waves());
+        let fall: f64 = waves.map(|wave| -wave.range().lower).sum();
+        let Some(allowed) = lifted(contact, fall, size) else { continue };
         let driven = given.iter().find(|size| {
             size.key.needs_actuator() && inputs.clone().any(|(input, _)| input == size.dither)
         });
