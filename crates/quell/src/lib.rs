@@ -40,6 +40,7 @@
 //!
 //! ```
 //! # use quell::Study;
+//! use quell::RealInterval;
 //! use quell::verbs::verbs;
 //! use quell::run::protocol::Protocol;
 //! use quell::run::thresholds::ThresholdsRequest;
@@ -51,7 +52,7 @@
 //! # let study = Study::parse(text, &[])?;
 //! let request = ThresholdsRequest {
 //!     parameter: "dither.amplitude".to_owned(),
-//!     window: (0.4, 0.6),
+//!     window: RealInterval::new(0.4, 0.6),
 //!     protocols: vec![Protocol::Rest],
 //!     ..ThresholdsRequest::default()
 //! };
