@@ -3,11 +3,12 @@
 //! Chapters are copied from `docs/book`; `quell reproduce` adds current pictures, the report and the table of claims; mdBook
 //! builds the site.
 
-use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use crate::programs::{cargo, command};
 
 /// The folder of the pictures among the chapters.
 const PICTURES: &str = "src/reproduction";
@@ -23,27 +24,15 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
         fs::remove_dir_all(&work).map_err(|why| format!("{}: {why}", work.display()))?;
     }
     copy(&root.join("docs/book"), &work)?;
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let quell = ["run", "--release", "--package", "quell-cli", "--", "reproduce", "--out"];
     let pictures = fs::canonicalize(&work).map_err(|why| why.to_string())?.join(PICTURES);
-    command(&cargo, root, |command| command.args(quell).arg(&pictures))?;
-    command(OsStr::new("mdbook"), root, |command| {
-        command.arg("build").arg(&work).arg("--dest-dir").arg(&site)
-    })
-    .map_err(|why| format!("{why} (`cargo install mdbook` installs it)"))?;
+    command(cargo().args(quell).arg(&pictures).current_dir(root))?;
+    let mut site_builder = Command::new("mdbook");
+    site_builder.arg("build").arg(&work).arg("--dest-dir").arg(&site);
+    command(site_builder.current_dir(root))
+        .map_err(|why| format!("{why} (`cargo install mdbook` installs it)"))?;
     eprintln!("book: {}", site.join("index.html").display());
     Ok(())
-}
-
-fn command(
-    program: &OsStr,
-    root: &Path,
-    arguments: impl FnOnce(&mut Command) -> &mut Command,
-) -> Result<(), String> {
-    let name = program.display();
-    let status = arguments(Command::new(program).current_dir(root)).status();
-    let status = status.map_err(|why| format!("{name}: {why}"))?;
-    if status.success() { Ok(()) } else { Err(format!("{name}: {status}")) }
 }
 
 /// Copies a folder.

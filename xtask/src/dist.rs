@@ -7,6 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use crate::programs::{cargo, command};
 use crate::python;
 
 /// The list of checksums, as `sha256sum --check` reads it.
@@ -30,9 +31,8 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     if place.exists() {
         fs::remove_dir_all(&place).map_err(|why| failed(&place, why))?;
     }
-    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["build", "--profile", "dist", "--package", "quell-cli"]);
-    python::command(cargo.current_dir(&root))?;
+    let program = ["build", "--profile", "dist", "--package", "quell-cli"];
+    command(cargo().args(program).current_dir(&root))?;
     let (name, end) = ("quell", std::env::consts::EXE_SUFFIX);
     fs::create_dir_all(&place).map_err(|why| failed(&place, why))?;
     let program =

@@ -4,7 +4,8 @@
 //! platforms. An expression is acceptable if one of its alternatives (`OR`, `/`) requires accepted licences only (`AND`).
 
 use std::path::Path;
-use std::process::Command;
+
+use crate::programs::cargo;
 
 /// Accepted licences: permissive, or public domain. The reason is the same for all: those who redistribute Quell need only keep
 /// the notices.
@@ -28,9 +29,8 @@ const ACCEPTED: &[&str] = &[
 /// # Errors
 /// The crates whose licence is missing or not accepted, one per line; a `cargo tree` that failed.
 pub(crate) fn run(root: &Path) -> Result<(), String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let tree = ["tree", "--workspace", "--locked", "--target", "all", "--prefix", "none"];
-    let output = Command::new(cargo)
+    let output = cargo()
         .args(tree)
         .args(["--edges", "normal,build,dev", "--no-dedupe", "--format", "{p}|{l}"])
         .current_dir(root)

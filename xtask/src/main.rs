@@ -16,6 +16,7 @@ mod names;
 mod package;
 mod places;
 mod platforms;
+mod programs;
 mod python;
 mod ratchet;
 mod source;

@@ -3,7 +3,8 @@
 //! Both are tests of the command line (`crates/quell-cli/tests/meaning`), which read what is wanted from the environment.
 
 use std::path::Path;
-use std::process::Command;
+
+use crate::programs::{cargo, command};
 
 /// Studies that `twins` asks.
 const TWINS: &str = "200";
@@ -13,8 +14,7 @@ const TWINS: &str = "200";
 /// # Errors
 /// The test fails, as it has printed.
 pub(crate) fn run(root: &Path, task: &str, bless: bool) -> Result<(), String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut tests = Command::new(cargo);
+    let mut tests = cargo();
     tests.args(["test", "--workspace", "--test", "meaning", "--", "--nocapture", task]);
     match task {
         "twins" => tests.env("QUELL_TWINS", TWINS),
@@ -23,6 +23,5 @@ pub(crate) fn run(root: &Path, task: &str, bless: bool) -> Result<(), String> {
     if bless {
         tests.env("QUELL_BLESS", "1");
     }
-    let status = tests.current_dir(root).status().map_err(|why| format!("cargo test: {why}"))?;
-    if status.success() { Ok(()) } else { Err(format!("xtask {task}: {status}")) }
+    command(tests.current_dir(root))
 }

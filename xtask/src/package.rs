@@ -4,9 +4,9 @@
 //! the registry, so no source file may include one.
 
 use std::path::Path;
-use std::process::Command;
 
 use crate::manifest::{self, Manifest};
+use crate::programs::{cargo, command};
 
 /// Crates in the order of their publication: each after those it uses.
 const ORDER: &[&str] = &[
@@ -35,16 +35,12 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     for name in ORDER {
         check_includes(&root.join("crates").join(name).join("src"), 1)?;
     }
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut command = Command::new(cargo);
-    command.args(["package", "--no-verify", "--allow-dirty"]).current_dir(root);
+    let mut packing = cargo();
+    packing.args(["package", "--no-verify", "--allow-dirty"]).current_dir(root);
     for name in ORDER {
-        command.args(["--package", name]);
+        packing.args(["--package", name]);
     }
-    let status = command.status().map_err(|why| format!("cargo package: {why}"))?;
-    if !status.success() {
-        return Err(format!("cargo package: {status}"));
-    }
+    command(&mut packing)?;
     eprintln!("package: publish in this order: {}", ORDER.join(", "));
     Ok(())
 }

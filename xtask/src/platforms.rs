@@ -15,7 +15,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::python::command;
+use crate::programs::{cargo, command};
 
 /// The folder of programs and answers.
 const PLACE: &str = "target/platforms";
@@ -107,8 +107,7 @@ pub(crate) fn run(root: &Path, only: Option<&str>) -> Result<(), String> {
         let targets: Vec<_> = PLATFORMS.iter().map(|platform| platform.target).collect();
         return Err(format!("no such platform; there are {}", targets.join(", ")));
     }
-    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command(cargo.args(["build", "--release", "--package", "quell-cli"]).current_dir(&root))?;
+    command(cargo().args(["build", "--release", "--package", "quell-cli"]).current_dir(&root))?;
     let own = root.join("target/release").join(format!("quell{}", std::env::consts::EXE_SUFFIX));
     let expected = answers(&root, &place.join("here"), |call| (own.clone(), call.to_vec()))?;
     let mut different = Vec::new();
@@ -144,7 +143,7 @@ impl Platform {
         let linker =
             format!("CARGO_TARGET_{}_LINKER", self.target.to_uppercase().replace('-', "_"));
         let mut cargo = if has_library(self.target) {
-            Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+            cargo()
         } else {
             let mut cargo = Command::new("/usr/bin/cargo");
             for set in ["CARGO", "RUSTC", "RUSTUP_TOOLCHAIN", "RUSTUP_HOME"] {

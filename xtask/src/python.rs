@@ -9,6 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::programs::{cargo, command};
+
 /// The crate of the wheel.
 const CRATE: &str = "crates/quell-python";
 
@@ -33,8 +35,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     // An existing program may be older than the sources, so cargo builds it if necessary. For a single package cargo would unify
     // features differently and compile the dependencies again. After the wheel it would recompile crates that the wheel built
     // with other settings.
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    command(Command::new(cargo).args(["build", "--workspace"]).current_dir(&root))?;
+    command(cargo().args(["build", "--workspace"]).current_dir(&root))?;
     let wheels = place.join("wheels");
     if wheels.exists() {
         fs::remove_dir_all(&wheels).map_err(|why| format!("{}: {why}", wheels.display()))?;
@@ -108,18 +109,6 @@ fn answer(program: &mut Command) -> Option<String> {
     String::from_utf8(output.stdout).ok()
 }
 
-/// Runs a program that must succeed; a failure has its arguments.
-pub(crate) fn command(program: &mut Command) -> Result<(), String> {
-    let name = program.get_program().to_string_lossy().into_owned();
-    let words: Vec<_> =
-        program.get_args().map(|word| word.to_string_lossy().into_owned()).collect();
-    match program.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(format!("{name} {}: {status}", words.join(" "))),
-        Err(why) => Err(format!("{name}: {why}")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
@@ -144,9 +133,8 @@ mod tests {
     #[test]
     fn the_wheel_shares_what_the_tests_compile() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let crates = |of: &[&str]| -> BTreeSet<String> {
-            let mut tree = Command::new(&cargo);
+            let mut tree = cargo();
             tree.args(["tree", "--offline", "--format", "{p} {f}", "--prefix", "none"]);
             let text = answer(tree.args(of).current_dir(&root)).expect("cargo tree");
             text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
@@ -158,13 +146,5 @@ mod tests {
             wheel.len() > 50 && others.is_empty(),
             "{others:?}: give quell-python the features"
         );
-    }
-
-    #[test]
-    fn a_failure_is_reported_with_its_arguments() {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let report = command(Command::new(cargo).arg("no-such-task")).expect_err("no such task");
-        assert!(report.contains("no-such-task"), "{report}");
-        assert!(command(&mut Command::new("no-such-program")).is_err());
     }
 }

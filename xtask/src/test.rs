@@ -6,10 +6,9 @@
 //! nothing is compiled twice because of a profile.
 
 use std::path::Path;
-use std::process::Command;
 
 use crate::ratchet::RatchetMode;
-use crate::{cycles, english, layers, licences, names, python};
+use crate::{cycles, english, layers, licences, names, programs, python};
 
 /// One step.
 struct TestStep {
@@ -161,14 +160,8 @@ fn until_failure(
 
 /// Runs the `cargo` that runs this task. Warnings of rustdoc are errors.
 fn cargo(root: &Path, arguments: &[&str]) -> Result<(), String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status = Command::new(cargo)
-        .args(arguments)
-        .current_dir(root)
-        .env("RUSTDOCFLAGS", "-D warnings")
-        .status()
-        .map_err(|why| format!("cargo {}: {why}", arguments.join(" ")))?;
-    if status.success() { Ok(()) } else { Err(format!("cargo {}: {status}", arguments.join(" "))) }
+    let mut cargo = programs::cargo();
+    programs::command(cargo.args(arguments).current_dir(root).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 #[cfg(test)]

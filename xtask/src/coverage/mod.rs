@@ -17,6 +17,7 @@ use std::process::{Command, ExitCode};
 mod report;
 mod tools;
 
+use crate::programs;
 use tools::Tools;
 
 /// Set when cargo calls this program in place of the compiler.
@@ -70,8 +71,7 @@ fn measure(root: &Path, tools: &Tools, name: &str, packages: &[&str]) -> Result<
     let copied = env::current_exe().and_then(|program| fs::copy(program, &wrapper));
     copied.map_err(|why| format!("{}: {why}", wrapper.display()))?;
     let cargo = || {
-        let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let mut command = Command::new(cargo);
+        let mut command = programs::cargo();
         command.current_dir(root).args(["test", "--tests"]).args(packages);
         command.env("RUSTC_WORKSPACE_WRAPPER", &wrapper).env(COMPILES, "1");
         // Processes of one program share up to four files.
