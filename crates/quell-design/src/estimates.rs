@@ -8,9 +8,8 @@
 //! one.
 
 use quell_numerics::damped_least_squares::DampedMinimum;
-use quell_numerics::matrix::Matrix;
+use quell_numerics::gram::{Eigenpair, gram_eigenpairs};
 use quell_numerics::order::descending_by;
-use quell_numerics::symmetric_eigenvectors::{Eigenpair, symmetric_eigenpairs};
 
 use crate::{ExactFit, NoStandardError};
 
@@ -93,12 +92,11 @@ impl Estimates {
             .collect();
         let visible: Vec<usize> =
             (0..errors.len()).filter(|place| errors[*place].is_ok()).collect();
-        let product = |i: usize, j: usize| {
-            let both = found.columns[visible[i]].iter().zip(&found.columns[visible[j]]);
-            both.map(|(a, b)| a * b).sum::<f64>() / (norms[visible[i]] * norms[visible[j]])
+        let scaled = |place: &usize| {
+            found.columns[*place].iter().map(|entry| entry / norms[*place]).collect()
         };
-        let information = Matrix::from_fn(visible.len(), visible.len(), product);
-        let pairs = symmetric_eigenpairs(&information).unwrap_or_default();
+        let columns: Vec<Vec<f64>> = visible.iter().map(scaled).collect();
+        let pairs = gram_eigenpairs(&columns).unwrap_or_default();
         let mut estimates = Self {
             values: found.at.clone(),
             errors,

@@ -117,7 +117,7 @@ impl RecordRequest {
             let ends = text.split_once(':').and_then(|(from, to)| {
                 let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
                 Some(RealInterval::new(number(from)?, number(to)?))
-                    .filter(|RealInterval { lower: from, upper: to }| from < to)
+                    .filter(|window| window.lower < window.upper)
             });
             request.window = ends;
             if ends.is_none() {
@@ -350,10 +350,7 @@ fn read_record(
         match (own, reading) {
             (Ok(Some(own)), Ok(Some(reading))) => {
                 let own = time.factor * own;
-                let inside =
-                    request.window.is_none_or(|RealInterval { lower: from, upper: to }| {
-                        (from..=to).contains(&own)
-                    });
+                let inside = request.window.is_none_or(|window| window.contains(own));
                 if inside {
                     record.times.push(own);
                     record.values.push(factor * reading);

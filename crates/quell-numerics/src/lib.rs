@@ -7,13 +7,13 @@
 //! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
 //!   special functions, spectra;
 //! * [`extrapolation`]: smooth ordinary differential equations to full accuracy;
-//! * [`symmetric`], [`symmetric_eigenvectors`]: eigenvalues of symmetric pencils, eigenvectors of small symmetric matrices;
+//! * [`symmetric`], [`gram`]: eigenvalues of symmetric pencils, eigenpairs of AᵀA from the columns of A;
 //! * [`least_squares`], [`damped_least_squares`]: linear fits of a few columns, nonlinear fits within bounds;
 //! * [`random`]: pseudorandom numbers with fixed bits;
 //! * [`order`]: sorting by numbers, compiled once;
 //! * [`cyclic`]: sequences whose beginning is arbitrary;
 //! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
-//! * [`polar`]: modulus and argument of complex numbers with the same bits on every machine;
+//! * [`polar`]: modulus, argument and square root of complex numbers with the same bits on every machine;
 //! * [`normal_form`]: coefficients that decide whether a bifurcation is supercritical;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
 
@@ -31,6 +31,7 @@ pub mod floquet;
 #[cfg(all(windows, target_env = "gnu"))]
 mod fused;
 pub mod gauss_legendre;
+pub mod gram;
 mod groups;
 pub mod interval;
 pub mod lane;
@@ -47,4 +48,3 @@ pub mod roots;
 pub mod special;
 pub mod spectrum;
 pub mod symmetric;
-pub mod symmetric_eigenvectors;

@@ -1,5 +1,6 @@
-//! Modulus, argument and square root of complex numbers, with the same bits on every machine: the methods of `num_complex` call the mathematics library
-//! of the platform.
+//! Modulus, argument and square root of complex numbers, with the same bits on every machine.
+//!
+//! The methods of `num_complex` call the mathematics library of the platform.
 
 use num_complex::Complex64;
 

@@ -133,6 +133,17 @@ mod tests {
         assert!(rows > 700, "only {rows} rows");
     }
 
+    /// Compares two independent implementations of I₀ and I₁: the other one is that of [`crate::bessel`] from K and the Wronskian.
+    #[test]
+    fn scaled_functions_agree_with_those_of_any_order() {
+        for k in 0..400 {
+            let x = libm::exp(-7.0 + 0.035 * f64::from(k));
+            let [i0, i1] = crate::bessel::bessel_i_scaled(0, x).expect("in range");
+            assert!(relative(bessel_i0_scaled(x), i0) < 2e-15, "I0 at {x}");
+            assert!(relative(bessel_i1_scaled(x), i1) < 2e-15, "I1 at {x}");
+        }
+    }
+
     /// erf + erfc = 1; erfcx and Dawson from their differential equations y' = 2xy − 2/√π, y' = 1 − 2xy.
     #[test]
     fn identities() {

@@ -1,15 +1,15 @@
 //! The discrete Fourier transform of real numbers, X_j = Σ x_k e^{−2πi jk/n}, with the same bits on every machine.
 //!
 //! Decimation in time over the factors of n, with the butterflies of Cooley and Tukey (*Math. Comp.* 19 (1965) 297); a length with a large
-//! prime factor is a convolution of a power of two (Bluestein, *IEEE Trans. Audio Electroacoust.* 18 (1970) 451). All roots of unity come from one table
-//! of correctly rounded angles, so that the error grows like log n. It is plain arithmetic on one number at a time: libraries
+//! prime factor is a convolution of a power of two (Bluestein, *IEEE Trans. Audio Electroacoust.* 18 (1970) 451). Each root of unity is a sine and a
+//! cosine of its own, none a product of others, so that the error grows like log n. It is plain arithmetic on one number at a time: libraries
 //! take the sines of the platform and sum in the order that suits the processor.
 
 use core::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-/// The largest prime factor whose butterfly is summed directly.
+/// The largest prime factor p whose butterfly is summed directly, with p products a value; the convolution takes about four log₂ n.
 const LARGEST_FACTOR: usize = 31;
 
 /// The lines 0 … n/2 of the transform of an even number n of real values.
@@ -40,9 +40,18 @@ fn transform(values: &[Complex64]) -> Vec<Complex64> {
     if largest_factor(n) > LARGEST_FACTOR {
         return by_convolution(values);
     }
-    let roots: Vec<Complex64> = (0..n).map(|k| root_of_unity(k, n)).collect();
-    let mut lines = vec![Complex64::ZERO; n];
-    decimate(values, 0, 1, &roots, &mut lines);
+    by_factors(values, &roots_of_unity(n))
+}
+
+/// e^{−2πi k/n} for all k < n.
+fn roots_of_unity(n: usize) -> Vec<Complex64> {
+    (0..n).map(|k| root_of_unity(k, n)).collect()
+}
+
+/// The transform of as many values as there are roots, by butterflies.
+fn by_factors(values: &[Complex64], roots: &[Complex64]) -> Vec<Complex64> {
+    let mut lines = vec![Complex64::ZERO; values.len()];
+    decimate(values, 0, 1, roots, &mut lines);
     lines
 }
 
@@ -132,10 +141,11 @@ fn by_convolution(values: &[Complex64]) -> Vec<Complex64> {
         kernel[k] = chirp.conj();
         kernel[(size - k) % size] = chirp.conj();
     }
-    let product: Vec<Complex64> =
-        transform(&turned).iter().zip(transform(&kernel)).map(|(a, b)| (a * b).conj()).collect();
+    let roots = roots_of_unity(size);
+    let (turned, kernel) = (by_factors(&turned, &roots), by_factors(&kernel, &roots));
     // The inverse transform is the conjugate of that of conjugates.
-    let back = transform(&product);
+    let product: Vec<Complex64> = turned.iter().zip(&kernel).map(|(a, b)| (a * b).conj()).collect();
+    let back = by_factors(&product, &roots);
     back.iter().zip(&chirp).map(|(line, chirp)| line.conj() / size as f64 * chirp).collect()
 }
 

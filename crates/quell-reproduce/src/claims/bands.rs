@@ -146,9 +146,7 @@ pub(super) fn more_bands(sheet: &mut ClaimSheet) -> Result<(), Failure> {
                 .collect())
         })
         .collect::<Result<Vec<_>, Failure>>()?;
-    let share = |bands: &[RealInterval]| {
-        bands.iter().map(|RealInterval { lower: from, upper: to }| to - from).sum::<f64>() / 0.78
-    };
+    let share = |bands: &[RealInterval]| bands.iter().map(|band| band.width()).sum::<f64>() / 0.78;
     let counts: Vec<f64> = bands.iter().map(|bands| bands.len() as f64).collect();
     let shares: Vec<f64> = bands.iter().map(|bands| share(bands)).collect();
     // A band of fewer modes is found again if speeds of it are unstable with more modes too.

@@ -89,13 +89,8 @@ pub(super) fn speeds_of_tongues(
         all.extend(predicted(disc, friction, first..=last));
         sort(&mut all, last);
         intervals = growing(source, disc, &all, &intervals, friction)?;
-        let narrow = intervals
-            .iter()
-            .filter(|RealInterval { lower: from, upper: to }| to - from < WIDE * to);
-        all.extend(
-            narrow
-                .flat_map(|&RealInterval { lower: from, upper: to }| [from, 0.5 * (from + to), to]),
-        );
+        let narrow = intervals.iter().filter(|interval| interval.width() < WIDE * interval.upper);
+        all.extend(narrow.flat_map(|interval| [interval.lower, interval.middle(), interval.upper]));
         friction *= FRICTION_RATIO;
     }
     sort(&mut all, last);
@@ -125,9 +120,9 @@ fn growing(
 ) -> Result<Vec<RealInterval>, Failure> {
     // Tongues lean: at a lower friction one may reach beyond the interval at the higher one.
     let is_near = |speed: f64| {
-        before.iter().any(|RealInterval { lower: from, upper: to }| {
-            let margin = 0.5 * (to - from);
-            speed >= from - margin && speed <= to + margin
+        before.iter().any(|interval| {
+            let margin = 0.5 * interval.width();
+            speed >= interval.lower - margin && speed <= interval.upper + margin
         })
     };
     let rates: Result<Vec<Option<f64>>, Failure> = speeds

@@ -207,8 +207,7 @@ fn with_curves(mut panel: Panel, done: &LeastDitherFound) -> Panel {
         .iter()
         .map(|point| PlotPoint::new(point.others[0] * number.per_unit, point.amplitude * up))
         .collect();
-    let top = HEADROOM
-        * least.iter().map(|PlotPoint { y: amplitude, .. }| *amplitude).fold(0.0, f64::max);
+    let top = HEADROOM * least.iter().map(|point| point.y).fold(0.0, f64::max);
     let quantities: Vec<LimitedQuantity> = tried
         .first()
         .map_or(Vec::new(), |point| point.used.iter().map(|(limit, _)| *limit).collect());
@@ -227,7 +226,7 @@ fn with_curves(mut panel: Panel, done: &LeastDitherFound) -> Panel {
             .label("least amplitude, by averaging"),
     );
     for (place, line) in lines.iter().enumerate() {
-        let x = least.iter().map(|PlotPoint { x, .. }| *x);
+        let x = least.iter().map(|point| point.x);
         let drawn = x.zip(line).filter_map(|(x, most)| Some(PlotPoint::new(x, (*most)? * up)));
         let pieces = pieces_below(drawn, top);
         if !pieces.is_empty() {

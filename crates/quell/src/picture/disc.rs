@@ -11,8 +11,8 @@ use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
     Colouring, Contours, Field, Figure, Heatmap, Layer, Legend, LineStyle, Marker, Note, Palette,
-    Panel, PlotAxis, PlotError, PlotPoint, PlotRange, PlotRole, Points, Polyline, ReferenceLine,
-    Shading, SharedLegend, Sharing, Size,
+    Panel, PlotAxis, PlotError, PlotPoint, PlotRole, Points, Polyline, ReferenceLine, Shading,
+    SharedLegend, Sharing, Size,
 };
 use crate::run::disc::campbell::Campbell;
 use crate::run::disc::modes::Modes;
@@ -84,7 +84,7 @@ pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
         let (x, y) = (places[column], places[row]);
         mode.shape.deflection(libm::hypot(x, y), libm::atan2(y, x))
     })?;
-    let most = field.extremes().map_or(1.0, |PlotRange { lower: low, upper: high }| high.max(-low));
+    let most = field.extremes().map_or(1.0, |range| range.upper.max(-range.lower));
     let shading = Shading::new(Palette::Diverging).range(-most, most);
     let circle = |radius: f64| {
         (0..=180).map(move |k| {

@@ -37,27 +37,19 @@ fn panel(
     dithered: bool,
 ) -> Panel {
     let slip = curve.slip_velocities();
-    let line = |role, values: Vec<f64>| {
-        let mut points: Vec<PlotPoint> = slip
-            .iter()
-            .zip(values)
-            .map(|(&v, value)| PlotPoint::new(ruler.place(v), value))
-            .collect();
+    let points = |values: Vec<f64>| {
+        let mut points: Vec<PlotPoint> =
+            PlotPoint::zip(slip.iter().map(|&v| ruler.place(v)), values).collect();
         ascending_by(&mut points, |a| a.x);
+        points
+    };
+    let line = |role, values: Vec<f64>| {
         // The law is discontinuous at zero slip velocity.
         let (left, right): (Vec<_>, Vec<_>) =
-            points.into_iter().partition(|PlotPoint { x: v, .. }| *v <= 0.0);
+            points(values).into_iter().partition(|point| point.x <= 0.0);
         Polyline::pieces(role, [left, right])
     };
-    let whole = |role, values: Vec<f64>| {
-        let mut points: Vec<PlotPoint> = slip
-            .iter()
-            .zip(values)
-            .map(|(&v, value)| PlotPoint::new(ruler.place(v), value))
-            .collect();
-        ascending_by(&mut points, |a| a.x);
-        Polyline::new(role, points)
-    };
+    let whole = |role, values: Vec<f64>| Polyline::new(role, points(values));
     let mut panel = Panel::new(
         ruler.axis("slip velocity", "v_r"),
         PlotAxis::new("friction coefficient").symbol("μ"),

@@ -57,12 +57,9 @@ pub fn simulate(study: &SystemStudy, done: &Simulation, samples: &MotionSampler)
     };
     let curves = curves(study, &with, without.as_ref(), &over_time);
     let ends = both().flat_map(|motion| &motion.displacement).map(|value| x.place(*value));
-    let ends = ends.fold(
-        RealInterval::new(f64::INFINITY, f64::NEG_INFINITY),
-        |RealInterval { lower: least, upper: most }, x| {
-            RealInterval::new(f64::min(least, x), f64::max(most, x))
-        },
-    );
+    let ends = ends.fold(RealInterval::new(f64::INFINITY, f64::NEG_INFINITY), |ends, x| {
+        RealInterval::new(ends.lower.min(x), ends.upper.max(x))
+    });
     let panel = Panel::new(time.clone(), across.clone()).with_all(curves);
     let panel = panel.with_all(bars(&done.history, &clock, ends));
     let start = done.start_in_words(study);

@@ -59,10 +59,10 @@ fn lowest_rate(done: &TrackedStability) -> Option<f64> {
     }
     ascending_by(&mut rates, |a| a.x);
     let (lowest, highest) = rates.first().zip(rates.last())?;
-    let whole: f64 = rates.iter().map(|PlotPoint { y: width, .. }| width).sum();
+    let whole: f64 = rates.iter().map(|point| point.y).sum();
     let mut below = 0.0;
-    let usual = rates.iter().find(|PlotPoint { y: width, .. }| {
-        below += width;
+    let usual = rates.iter().find(|point| {
+        below += point.y;
         below >= HIDDEN * whole
     })?;
     let length = highest.x - usual.x;
@@ -111,7 +111,7 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
             panel.with(Points::new(PlotRole::Exact, points).marker(marker).size(7.0).label(label))
         })
     };
-    let all = frequencies.iter().flatten().map(|PlotPoint { y: height, .. }| *height);
+    let all = frequencies.iter().flatten().map(|point| point.y);
     let (least, greatest) =
         all.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), height| (a.min(height), b.max(height)));
     // Frequencies that are close to each other in comparison to their size are easier to distinguish without the origin.

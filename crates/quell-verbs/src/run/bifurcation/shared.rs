@@ -106,9 +106,7 @@ pub(super) fn put_comparison(
     fields.list("jumps", jumps);
     match ranges {
         Some(ranges) => {
-            let pairs = ranges
-                .iter()
-                .map(|RealInterval { lower: from, upper: to }| vec![*from, *to].into());
+            let pairs = ranges.iter().map(|range| vec![range.lower, range.upper].into());
             fields.plain("hysteresis", pairs.collect::<Vec<Json>>());
         }
         None => {
