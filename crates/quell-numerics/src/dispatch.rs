@@ -271,6 +271,16 @@ macro_rules! vector_lane {
             }
 
             #[inline(always)]
+            fn pairwise(self, place: usize) -> Self {
+                let mut lanes = self.lanes();
+                for pair in 0..$lanes / 2 {
+                    let number = lanes[2 * pair + place];
+                    (lanes[2 * pair], lanes[2 * pair + 1]) = (number, number);
+                }
+                Self::of(lanes)
+            }
+
+            #[inline(always)]
             fn map(self, function: impl Fn(f64) -> f64) -> Self {
                 // A loop, because an iterator of the standard library may not be inlined and would then
                 // be compiled without the instructions of this lane.
@@ -297,7 +307,9 @@ macro_rules! vector_lane {
 
             #[inline(always)]
             fn abs(self) -> Self {
-                Self(pulp::Simd::abs_f64s(Self::token(), self.0))
+                // The bits without the sign; the vector of them is a constant, which `abs_f64s` computes by a call.
+                let rest = pulp::Simd::splat_f64s(Self::token(), f64::from_bits(!(1 << 63)));
+                Self(pulp::Simd::and_f64s(Self::token(), self.0, rest))
             }
 
             #[inline(always)]
@@ -433,6 +445,37 @@ mod tests {
             let mut expected = numbers.to_vec();
             expected[place] = 100.0;
             assert_eq!(with_lanes(set, Replaced(&numbers, place)), expected, "{}", set.name());
+        }
+    }
+
+    /// Pairs of sixteen numbers by their first and by their second lane, where there are pairs.
+    struct Pairs<'a>(&'a [f64; LANES]);
+
+    impl LaneWork for Pairs<'_> {
+        type Output = (usize, Vec<[f64; 2]>);
+
+        #[inline(always)]
+        fn run<V: Lane>(self) -> (usize, Vec<[f64; 2]>) {
+            let mut out = Vec::new();
+            for first in (0..LANES).step_by(V::LANES) {
+                let numbers = V::load(&self.0[first..]);
+                let by = [numbers.pairwise(0), numbers.pairwise(1)];
+                out.extend((0..V::LANES).map(|lane| by.map(|by| by.lane(lane))));
+            }
+            (V::LANES, out)
+        }
+    }
+
+    #[test]
+    fn lanes_in_pairs_have_the_number_of_one_of_them() {
+        let numbers: [f64; LANES] = std::array::from_fn(|lane| lane as f64);
+        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+            let (lanes, pairs) = with_lanes(set, Pairs(&numbers));
+            for (lane, by) in pairs.into_iter().enumerate() {
+                let even = (lane - lane % 2) as f64;
+                let expected = if lanes == 1 { [lane as f64; 2] } else { [even, even + 1.0] };
+                assert_eq!(by, expected, "{}, lane {lane}", set.name());
+            }
         }
     }
 

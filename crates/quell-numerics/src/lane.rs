@@ -42,6 +42,10 @@ pub trait Lane:
     /// Replaces the number of one lane, below [`Lane::LANES`].
     fn set_lane(&mut self, lane: usize, value: f64);
 
+    /// The lanes in pairs, each with the number of its lane `place`, 0 or 1, in both; of one lane itself.
+    #[must_use]
+    fn pairwise(self, place: usize) -> Self;
+
     /// Applies `function` to every lane, for bit operations, divisions or roots. If the function has no branch,
     /// the compiler generates vector instructions for it.
     #[must_use]
@@ -118,6 +122,11 @@ impl Lane for f64 {
     #[inline(always)]
     fn set_lane(&mut self, _: usize, value: f64) {
         *self = value;
+    }
+
+    #[inline(always)]
+    fn pairwise(self, _: usize) -> Self {
+        self
     }
 
     #[inline(always)]
@@ -233,6 +242,11 @@ impl<V: Lane> Lane for LanePair<V> {
         } else {
             self.1.set_lane(lane - V::LANES, value);
         }
+    }
+
+    #[inline(always)]
+    fn pairwise(self, place: usize) -> Self {
+        Self(self.0.pairwise(place), self.1.pairwise(place))
     }
 
     #[inline(always)]

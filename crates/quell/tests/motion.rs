@@ -434,11 +434,18 @@ fn failures_have_time_and_contact() {
         "{at_rest}"
     );
     let sliding = text.replace("normal = ", "tangent = ").replace("= 0.0", "= 0.1");
-    let fast =
-        "[dither]\nat = { x = 1.0 }\nwaveform = \"sine\"\namplitude = 1e6\nfrequency = 1e6\n";
-    let endless = why(&format!("{sliding}{fast}"));
+    let dithered =
+        |wave: &str| format!("{sliding}[dither]\nat = {{ x = 1.0 }}\namplitude = 1.0\n{wave}");
+    let growing = dithered("waveform = \"sine\"\nfrequency = 3.0\n")
+        .replace("stiffness", "damping = [-4.0]\nstiffness");
+    let stopped = why(&growing);
     for part in ["stopped at t = ", "the state there is x = ", "velocity.x = "] {
-        assert!(endless.contains(part), "{endless}");
+        assert!(stopped.contains(part), "{stopped}");
+    }
+    // The fastest oscillation is that of the dither, of a burst that of its carrier.
+    for wave in ["\"sine\"", "\"burst\"\ncarrier = \"triangle\"\non = 3\noff = 2"] {
+        let endless = why(&dithered(&format!("waveform = {wave}\nfrequency = 1e6\n")));
+        assert!(endless.contains("--until") && endless.contains("at most 1000 after"), "{endless}");
     }
 }
 

@@ -1,33 +1,33 @@
 //! A contact as the engine needs it: the rows that it reads and the columns that it adds.
 
 use super::own_state::OwnState;
-use super::rows::{RowEntries, StateRow};
+use super::rows::RowEntries;
 
-/// A contact as the engine needs it, with rows of type `R` and numbers of type `V`.
+/// A contact as the engine needs it.
 #[derive(Clone, Debug)]
-pub(super) struct ContactEquation<R = RowEntries, V = f64> {
+pub(super) struct ContactEquation {
     /// Row t of the slip velocity γ = v − tᵀx.
-    pub(super) tangent: R,
+    pub(super) tangent: RowEntries,
     /// Row r of the load: k nᵀ over displacements and d nᵀ over velocities.
-    pub(super) approach: R,
+    pub(super) approach: RowEntries,
     /// Row s of the tilt.
-    pub(super) slope: R,
+    pub(super) slope: RowEntries,
     /// Columns g and h.
-    pub(super) along: R,
-    pub(super) across: R,
+    pub(super) along: RowEntries,
+    pub(super) across: RowEntries,
     /// N₀.
-    pub(super) normal_load: V,
+    pub(super) normal_load: f64,
     /// Velocity that scales slip for the law.
-    pub(super) scale: V,
-    pub(super) inverse_scale: V,
+    pub(super) scale: f64,
+    pub(super) inverse_scale: f64,
     /// μ_s and μ(0⁺).
-    pub(super) static_coefficient: V,
-    pub(super) sliding_coefficient: V,
-    /// Its own number of the state: none in lanes.
+    pub(super) static_coefficient: f64,
+    pub(super) sliding_coefficient: f64,
+    /// Its own number of the state.
     pub(super) own: Option<OwnState>,
 }
 
-impl<R: StateRow, V> ContactEquation<R, V> {
+impl ContactEquation {
     /// Whether the load depends on the motion, so that the contact can open.
     #[inline(always)]
     pub(super) fn is_compliant(&self) -> bool {

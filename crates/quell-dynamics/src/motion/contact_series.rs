@@ -1,7 +1,5 @@
 //! The Taylor series of one contact on a step.
 
-use quell_numerics::lane::Lane;
-
 use super::own_state::OwnSeries;
 use crate::simulation::ORDER;
 
@@ -14,7 +12,7 @@ pub(super) type SeriesOf<V> = [V; ORDER + 1];
     reason = "independent properties of a contact, constant along a run"
 )]
 #[derive(Clone, Debug)]
-pub(super) struct ContactSeries<V = f64> {
+pub(super) struct ContactSeries {
     /// Whether load and factor are constant and without reaction on the structure, and friction is not turned by a slope: the
     /// series of the load are then written once, when the run begins.
     pub(super) is_plain: bool,
@@ -25,40 +23,40 @@ pub(super) struct ContactSeries<V = f64> {
     /// Whether a factor multiplies friction.
     pub(super) has_factor: bool,
     /// dT/dγ at the start of the step, where the contact is plain and slips.
-    pub(super) drag: V,
+    pub(super) drag: f64,
     /// γ̇ of the current order without the forces that are sought, where the contact sticks.
-    pub(super) lost: V,
+    pub(super) lost: f64,
     /// γ.
-    pub(super) slip: SeriesOf<V>,
+    pub(super) slip: SeriesOf<f64>,
     /// N; where the contact is open the load that it would have, which is negative.
-    pub(super) load: SeriesOf<V>,
+    pub(super) load: SeriesOf<f64>,
     /// N₀ + ΔN(t).
-    pub(super) given: SeriesOf<V>,
+    pub(super) given: SeriesOf<f64>,
     /// N times its factor: what the coefficient of friction multiplies.
-    pub(super) pressed: SeriesOf<V>,
+    pub(super) pressed: SeriesOf<f64>,
     /// T.
-    pub(super) friction: SeriesOf<V>,
+    pub(super) friction: SeriesOf<f64>,
     /// sᵀx.
-    pub(super) tilt: SeriesOf<V>,
-    pub(super) scaled: SeriesOf<V>,
-    pub(super) coefficient: SeriesOf<V>,
-    pub(super) surface: SeriesOf<V>,
-    pub(super) guided: SeriesOf<V>,
-    pub(super) factor: SeriesOf<V>,
+    pub(super) tilt: SeriesOf<f64>,
+    pub(super) scaled: SeriesOf<f64>,
+    pub(super) coefficient: SeriesOf<f64>,
+    pub(super) surface: SeriesOf<f64>,
+    pub(super) guided: SeriesOf<f64>,
+    pub(super) factor: SeriesOf<f64>,
     /// The series of a contact with a state of its own.
-    pub(super) own: Option<Box<OwnSeries<V>>>,
+    pub(super) own: Option<Box<OwnSeries>>,
 }
 
-impl<V: Lane> ContactSeries<V> {
+impl ContactSeries {
     pub(super) fn zero() -> Self {
-        let series = [V::splat(0.0); ORDER + 1];
+        let series = [0.0; ORDER + 1];
         Self {
             is_plain: false,
             load_varies: false,
             is_guided: false,
             has_factor: false,
-            drag: V::splat(0.0),
-            lost: V::splat(0.0),
+            drag: 0.0,
+            lost: 0.0,
             slip: series,
             load: series,
             given: series,
@@ -76,8 +74,8 @@ impl<V: Lane> ContactSeries<V> {
 
     /// γ̇ of order k without the forces that are sought: (k + 1) v_{k+1} − tᵀẋ.
     #[inline(always)]
-    pub(super) fn lost_slip(&self, k: usize, along: V) -> V {
-        let surface = if k < ORDER { self.surface[k + 1] } else { V::splat(0.0) };
-        V::splat((k + 1) as f64).mul_add(surface, -along)
+    pub(super) fn lost_slip(&self, k: usize, along: f64) -> f64 {
+        let surface = if k < ORDER { self.surface[k + 1] } else { 0.0 };
+        f64::mul_add((k + 1) as f64, surface, -along)
     }
 }

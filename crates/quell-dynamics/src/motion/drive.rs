@@ -1,12 +1,12 @@
-//! The loop of one run: in vectors where its contacts are plain, else step by step.
+//! The loop of runs: in vectors where their contacts are plain, else step by step.
 
 use quell_numerics::dispatch::{LaneWork, only_in_four_lanes};
 use quell_numerics::lane::Lane;
 
 use super::engine::{MotionProgress, MotionRun};
-use super::equations::MotionEquations;
-use super::plain_contacts::PlainVectors;
+use super::plain_contacts::{PlainVectors, plain_of};
 use super::plain_equations::MOST;
+use super::plain_step::runs_of;
 use super::state::MotionEnd;
 use super::stopped::MotionStopped;
 
@@ -14,11 +14,6 @@ impl MotionRun<'_> {
     /// Runs to the end.
     pub(super) fn run(mut self) -> Result<MotionEnd, MotionStopped> {
         self.open()?;
-        self.run_on()
-    }
-
-    /// Runs to the end from where it is.
-    pub(super) fn run_on(mut self) -> Result<MotionEnd, MotionStopped> {
         run_to_end(&mut self)?;
         self.end()
     }
@@ -26,13 +21,33 @@ impl MotionRun<'_> {
 
 /// A run to its end, in vectors where its contacts are plain.
 fn run_to_end(run: &mut MotionRun<'_>) -> MotionProgress {
-    match only_in_four_lanes(PlainRun(run)) {
-        Ok(progress) => progress,
-        Err(PlainRun(run)) => step_by_step(run),
+    let mut ended = Ok(());
+    to_their_ends(&mut [run], &mut |_, end| ended = end);
+    ended
+}
+
+/// Runs to their ends, which begin in their order: in vectors where the contacts of all are plain and their laws alike. Each end is
+/// reported with the number of its run.
+pub(super) fn to_their_ends(
+    runs: &mut [&mut MotionRun<'_>],
+    finish: &mut dyn FnMut(usize, MotionProgress),
+) {
+    if let Err(PlainRuns(runs, finish)) = only_in_four_lanes(PlainRuns(runs, finish)) {
+        one_by_one(runs, finish);
     }
 }
 
-/// The run by the equations of any system.
+/// Runs by the equations of any system.
+pub(super) fn one_by_one(
+    runs: &mut [&mut MotionRun<'_>],
+    finish: &mut dyn FnMut(usize, MotionProgress),
+) {
+    for (number, run) in runs.iter_mut().enumerate() {
+        finish(number, step_by_step(run));
+    }
+}
+
+/// A run by the equations of any system.
 fn step_by_step(run: &mut MotionRun<'_>) -> MotionProgress {
     while !run.is_over() {
         run.step()?;
@@ -40,25 +55,66 @@ fn step_by_step(run: &mut MotionRun<'_>) -> MotionProgress {
     Ok(())
 }
 
-struct PlainRun<'r, 'a>(&'r mut MotionRun<'a>);
+/// The places that the coordinates and contacts of a run take in vectors; `None` if it does not suit them.
+pub(super) fn places_of(run: &MotionRun<'_>) -> Option<usize> {
+    let plain = plain_of(run)?;
+    // Places without a coordinate or a contact hold zeros, and cost time alone.
+    Some(if plain.coordinates.max(plain.contacts) <= 2 { 2 } else { MOST })
+}
 
-impl LaneWork for PlainRun<'_, '_> {
-    type Output = MotionProgress;
+struct PlainRuns<'r, 'm, 'a>(
+    &'r mut [&'m mut MotionRun<'a>],
+    &'r mut dyn FnMut(usize, MotionProgress),
+);
+
+impl LaneWork for PlainRuns<'_, '_, '_> {
+    type Output = ();
 
     #[inline(always)]
-    fn run<V: Lane>(self) -> MotionProgress {
-        let Self(run) = self;
-        let equations: &MotionEquations = run.equations;
-        let Some(vectors) =
-            equations.plain.as_ref().and_then(|plain| PlainVectors::<V>::of(plain, run))
-        else {
-            return step_by_step(run);
+    fn run<V: Lane>(self) {
+        let Self(runs, finish) = self;
+        let places = runs.iter().map(|run| places_of(run)).max().flatten();
+        let are_plain = runs.iter().all(|run| places_of(run).is_some());
+        match places.filter(|_| are_plain) {
+            Some(2) => in_vectors::<V, 2>(runs, finish),
+            Some(_) => in_vectors::<V, MOST>(runs, finish),
+            None => one_by_one(runs, finish),
+        }
+    }
+}
+
+/// Runs in vectors of `N` places for each: as many at a time as there are places for, the next when one has ended.
+#[inline(always)]
+fn in_vectors<V: Lane, const N: usize>(
+    runs: &mut [&mut MotionRun<'_>],
+    finish: &mut dyn FnMut(usize, MotionProgress),
+) {
+    let mut waiting = runs.iter_mut().enumerate();
+    let mut slots: Vec<&mut MotionRun<'_>> = Vec::with_capacity(2);
+    let mut numbers = Vec::with_capacity(2);
+    for (number, run) in waiting.by_ref().take(runs_of(N)) {
+        numbers.push(number);
+        slots.push(run);
+    }
+    let mut vectors = PlainVectors::<V, N>::of(&slots);
+    while !slots.is_empty() {
+        let ended = match &mut vectors {
+            Some(vectors) => vectors.advance(&mut slots),
+            // Laws that differ in more than numbers.
+            None => [Some(step_by_step(slots[0])), None],
         };
-        // Places without a coordinate or a contact hold zeros, and cost time alone.
-        if equations.contacts.len().max(run.equations.size / 2) <= 2 {
-            vectors.run::<2>(run)
-        } else {
-            vectors.run::<MOST>(run)
+        for (place, end) in ended.into_iter().enumerate().rev() {
+            let Some(end) = end else { continue };
+            finish(numbers[place], end);
+            if let Some((number, run)) = waiting.next() {
+                (numbers[place], slots[place]) = (number, run);
+                vectors = vectors
+                    .and_then(|mut vectors| vectors.replace(place, &slots).map(|()| vectors));
+            } else {
+                numbers.remove(place);
+                slots.remove(place);
+                vectors = PlainVectors::of(&slots);
+            }
         }
     }
 }

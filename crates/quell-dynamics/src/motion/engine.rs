@@ -63,7 +63,7 @@ pub(super) struct MotionRun<'a> {
 }
 
 /// How far the next step may go.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct StepRoom {
     /// The next moment that no step may pass.
     stop: f64,
@@ -170,8 +170,13 @@ impl<'a> MotionRun<'a> {
 
     /// Load of a contact now, or that it would have if it is open.
     pub(super) fn load(&self, contact: usize) -> f64 {
-        let approach = &self.equations.contacts[contact].approach;
-        self.forcings.contacts[contact].load.value(self.clock) + approach.dot(self.series.start())
+        let equation = &self.equations.contacts[contact];
+        let forcing = &self.forcings.contacts[contact].load;
+        let given = if forcing.is_constant() { forcing.mean() } else { forcing.value(self.clock) };
+        if !equation.is_compliant() {
+            return given;
+        }
+        given + equation.approach.dot(self.series.start())
     }
 
     /// One pass of the loop: it advances time or changes contacts.
@@ -211,6 +216,15 @@ impl<'a> MotionRun<'a> {
 
     /// Computes a step from here, at most `longest` and `room` long.
     pub(super) fn expand(&mut self, longest: f64, room: f64) -> ExpandedStep {
+        self.expand_to(ORDER, longest, room)
+    }
+
+    /// Writes the first coefficients of all series: what holds now.
+    fn evaluate(&mut self) {
+        self.expand_to(0, self.longest, self.time_scale);
+    }
+
+    fn expand_to(&mut self, last: usize, longest: f64, room: f64) -> ExpandedStep {
         let Self { tolerance, time_scale, .. } = *self;
         let step = StepExpansion {
             equations: self.equations,
@@ -220,6 +234,7 @@ impl<'a> MotionRun<'a> {
             stuck: &self.stuck,
             clock: self.clock,
             limit: StepLimit { tolerance, time_scale, longest, room },
+            last,
             out: &mut self.series,
             end: &mut self.scratch,
         };
@@ -268,7 +283,7 @@ impl<'a> MotionRun<'a> {
         for &contact in &members {
             self.now[contact].saturated = 0;
         }
-        if members.len() < 2 {
+        if members.len() < 2 || self.are_apart(&members) {
             return;
         }
         let moment = self.moment_of(&members, &at_bounds);
@@ -311,14 +326,16 @@ impl<'a> MotionRun<'a> {
 
     /// Advances by `duration`, exactly to the stop if it is reached.
     fn advance(&mut self, duration: f64, room: f64, stop: f64) -> MotionProgress {
-        if !self.scratch.iter().all(|value| value.is_finite()) {
-            // The last finite state, and its time.
-            return Err(self.stalled("the state leaves the finite numbers in the next step"));
-        }
+        let mut is_finite = true;
         for value in &mut self.scratch {
+            is_finite &= value.is_finite();
             if value.abs() < LEAST_SCALE {
                 *value = 0.0;
             }
+        }
+        if !is_finite {
+            // The last finite state, and its time.
+            return Err(self.stalled("the state leaves the finite numbers in the next step"));
         }
         self.steps += 1;
         if self.watched {
@@ -373,7 +390,7 @@ impl<'a> MotionRun<'a> {
         // The steps are counted, but a run that has ended is not stopped for them.
         let _ = self.budget.spend(self.steps);
         self.refresh()?;
-        self.expand(self.longest, self.time_scale);
+        self.evaluate();
         self.keep_carried();
         let bristle = |contact: usize| {
             let own = self.equations.contacts[contact].own?;

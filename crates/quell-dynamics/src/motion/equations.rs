@@ -18,7 +18,7 @@ use super::contact_equation::ContactEquation;
 use super::own_state::OwnState;
 use super::plain_equations::PlainEquations;
 use super::rates::{self, FastestRates};
-use super::rows::{RowEntries, StateMatrix, StateRow};
+use super::rows::{RowEntries, StateMatrix};
 use super::speed_terms::SpeedMatrices;
 use super::stopped::Immobile;
 use crate::simulation::{Clock, Forcing};

@@ -7,15 +7,15 @@ use quell_numerics::dispatch::{
     InstructionSet, Work, only_with_fused_multiply_add, with_fused_multiply_add, with_scalar_of,
 };
 
-use super::contact_masks::ContactMasks;
+use super::contact_in_step::ContactInStep;
 use super::equations::{Forcings, MotionEquations};
 use super::guards::{GuardReached, Guards};
 use super::phase::ContactNow;
-use super::rows::{FewStates, ManyStates, RowEntries, SmallStates, StateStorage};
+use super::rows::{FewStates, ManyStates, SmallStates, StateStorage};
 use super::series::{StepSeries, horner_states};
 use super::step_recurrence::{FEW_CONTACTS, SlipRecurrence, StepLimit, StepRecurrence};
 use super::stuck::StuckForces;
-use crate::simulation::Clock;
+use crate::simulation::{Clock, ORDER};
 
 /// Computes the series of a step, and what follows from them.
 pub(super) struct StepExpansion<'a> {
@@ -26,6 +26,8 @@ pub(super) struct StepExpansion<'a> {
     pub(super) stuck: &'a StuckForces,
     pub(super) clock: Clock,
     pub(super) limit: StepLimit,
+    /// The last order of the series: less than [`ORDER`] only where nothing but the start is asked for.
+    pub(super) last: usize,
     pub(super) out: &'a mut StepSeries,
     /// The state at the end of the step.
     pub(super) end: &'a mut [f64],
@@ -61,10 +63,10 @@ impl<'a> StepExpansion<'a> {
 
     /// The step.
     #[inline(always)]
-    fn whole<S: StateStorage<f64, Row = RowEntries>>(
+    fn whole<S: StateStorage>(
         mut self,
         storage: S,
-        masks: &[ContactMasks],
+        phases: &[ContactInStep],
         branches: &mut [SlipRecurrence<'a>],
     ) -> ExpandedStep {
         self.forcings();
@@ -75,11 +77,15 @@ impl<'a> StepExpansion<'a> {
             pushes: &self.equations.pushes,
             by_speed: self.equations.by_speed.as_ref(),
             contacts: &self.equations.contacts,
-            masks,
+            phases,
             holding: self.stuck.holding(),
+            last: self.last,
             series: &mut *self.out,
         };
         let length = recurrence.run(laws, branches, self.limit);
+        if self.last < ORDER {
+            return ExpandedStep { duration: 0.0, reached: None };
+        }
         let reached = self.guards().first(length);
         let duration = reached.map_or(length, |reached| reached.after);
         horner_states(&self.out.states, duration, self.end);
@@ -120,7 +126,7 @@ impl<'a> StepExpansion<'a> {
 /// The step of a system with few states and contacts: with no memory but the stack.
 struct FewStatesStep<'a, S>(StepExpansion<'a>, S);
 
-impl<S: StateStorage<f64, Row = RowEntries>> FewStatesStep<'_, S> {
+impl<S: StateStorage> FewStatesStep<'_, S> {
     /// The step with fused multiply-add; without, with the same bits by the one function for any number of states.
     fn fused(self) -> ExpandedStep {
         only_with_fused_multiply_add(self).unwrap_or_else(|Self(step, _)| {
@@ -129,20 +135,20 @@ impl<S: StateStorage<f64, Row = RowEntries>> FewStatesStep<'_, S> {
     }
 }
 
-impl<S: StateStorage<f64, Row = RowEntries>> Work for FewStatesStep<'_, S> {
+impl<S: StateStorage> Work for FewStatesStep<'_, S> {
     type Output = ExpandedStep;
 
     #[inline(always)]
     fn run(self) -> ExpandedStep {
         let Self(step, storage) = self;
         let mut branches: [SlipRecurrence<'_>; FEW_CONTACTS] = [None, None, None, None];
-        let mut masks: [ContactMasks; FEW_CONTACTS] =
-            std::array::from_fn(|_| ContactMasks::empty());
-        for (masks, now) in masks.iter_mut().zip(step.now) {
-            *masks = ContactMasks::of(now);
+        let mut phases: [ContactInStep; FEW_CONTACTS] =
+            std::array::from_fn(|_| ContactInStep::open());
+        for (phase, now) in phases.iter_mut().zip(step.now) {
+            *phase = ContactInStep::of(now);
         }
         let count = step.now.len();
-        step.whole(storage, &masks[..count], &mut branches[..count])
+        step.whole(storage, &phases[..count], &mut branches[..count])
     }
 }
 
@@ -161,7 +167,7 @@ impl Work for ManyStatesStep<'_> {
         let MotionEquations { size, ref matrix, .. } = *step.equations;
         let storage = ManyStates { size, matrix, by_halves };
         let mut branches: Vec<SlipRecurrence<'_>> = (0..step.now.len()).map(|_| None).collect();
-        let masks: Vec<ContactMasks> = step.now.iter().map(ContactMasks::of).collect();
-        step.whole(storage, &masks, &mut branches)
+        let phases: Vec<ContactInStep> = step.now.iter().map(ContactInStep::of).collect();
+        step.whole(storage, &phases, &mut branches)
     }
 }

@@ -1,12 +1,10 @@
 //! The guards of a step: the polynomials whose first root ends it.
 
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
-use quell_numerics::lane::{Lane, horner, partial_product};
-use quell_numerics::polynomial::side_by_side::proof_of_no_root;
+use quell_numerics::lane::{horner, partial_product};
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
 use super::contact_equation::ContactEquation;
-use super::contact_masks::ContactMasks;
 use super::contact_series::{ContactSeries, SeriesOf};
 use super::equations::MotionEquations;
 use super::few::Few;
@@ -14,7 +12,6 @@ use super::observer::Trigger;
 use super::own_friction::own_speed;
 use super::own_state::{OwnState, OwnStateKind};
 use super::phase::{ContactNow, ContactPhase, ElasticNow, OwnNow};
-use super::rows::{RowEntries, StateRow};
 use super::selection::ZERO_ACCELERATION;
 use crate::simulation::{ORDER, Series};
 
@@ -63,10 +60,23 @@ const GUARDS: usize = 3;
 impl<'a> Guards<'a> {
     /// The first guard that reaches zero within `length`.
     #[inline(always)]
-    pub(super) fn first(&self, mut length: f64) -> Option<GuardReached> {
+    pub(super) fn first(&self, length: f64) -> Option<GuardReached> {
+        self.first_among(|_| true, length)
+    }
+
+    /// The same among contacts that may have one: of the others it is proven that they have none.
+    #[inline(always)]
+    pub(super) fn first_among(
+        &self,
+        may: impl Fn(usize) -> bool,
+        mut length: f64,
+    ) -> Option<GuardReached> {
         let mut first: Option<GuardReached> = None;
         let mut margin = [0.0; ORDER + 1];
         for contact in 0..self.now.len() {
+            if !may(contact) {
+                continue;
+            }
             for place in 0..GUARDS {
                 let Some(guard) = self.at(contact, place, &mut margin) else { continue };
                 let Some(after) = guard.root(length) else { continue };
@@ -221,42 +231,10 @@ impl Work for SameMoment<'_, '_> {
     }
 }
 
-/// Positive in the lanes where [`Guards::first`] finds no guard that reaches zero within `length` without halving the step.
-#[inline(always)]
-pub(super) fn proof_of_no_event<R: StateRow, V: Lane>(
-    equations: &[ContactEquation<R, V>],
-    masks: &[ContactMasks<V>],
-    contacts: &[ContactSeries<V>],
-    length: V,
-) -> V {
-    let (zero, one) = (V::splat(0.0), V::splat(1.0));
-    let mut proof = one;
-    for ((equation, masks), series) in equations.iter().zip(masks).zip(contacts) {
-        if series.load_varies {
-            let sign = masks.open.where_positive(-one, one);
-            let found = proof_of_no_root(&series.load, masks.load_zeros, sign, length, one);
-            proof = proof.min(found);
-        }
-        if masks.any_slips && equation.can_stick() {
-            let (zeros, sign, slips) = (masks.slip_zeros, masks.sign, masks.slipping);
-            let found = proof_of_no_root(&series.slip, zeros, sign, length, slips);
-            proof = proof.min(slips.where_positive(found, one));
-        }
-        if masks.any_holds {
-            for side in [one, -one] {
-                let above = margin_above(equation.static_coefficient, side, series);
-                let found = proof_of_no_root(&above, zero, one, length, masks.holding);
-                proof = proof.min(masks.holding.where_positive(found, one));
-            }
-        }
-    }
-    proof
-}
-
 /// The guards of an elastic slider that adheres on one side beyond its static bound: T reaches the sliding level there, or returns to
 /// the static bound.
 fn beyond_static_bound<'m>(
-    equation: &ContactEquation<RowEntries>,
+    equation: &ContactEquation,
     (contact, place): (usize, usize),
     elastic: ElasticNow,
     series: &ContactSeries,
@@ -299,11 +277,11 @@ pub(super) fn level_margin(elastic: ElasticNow, series: &ContactSeries) -> Serie
 
 /// The margin μ_s N ∓ T of a sticking contact on one side.
 #[inline(always)]
-pub(super) fn margin_above<V: Lane>(level: V, side: V, series: &ContactSeries<V>) -> SeriesOf<V> {
-    let mut margin = [V::splat(0.0); ORDER + 1];
+pub(super) fn margin_above(level: f64, side: f64, series: &ContactSeries) -> SeriesOf<f64> {
+    let mut margin = [0.0; ORDER + 1];
     let sides = series.pressed.iter().zip(&series.friction);
     for (margin, (pressed, force)) in margin.iter_mut().zip(sides) {
-        *margin = level.mul_add(*pressed, -(side * *force));
+        *margin = f64::mul_add(level, *pressed, -(side * *force));
     }
     margin
 }

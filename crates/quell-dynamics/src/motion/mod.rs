@@ -16,13 +16,13 @@
 //! | `equations`, `contact_equation`, `rows`, `rates` | a system as the engine needs it |
 //! | `variation`, `change_series` | small changes of the initial state |
 //! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
-//! | `plain_equations`, `plain_step`, `plain_contacts` | the steps of few coordinates with plain contacts, in vectors |
+//! | `plain_equations`, `plain_step`, `plain_contacts`, `plain_exchange` | the steps of few coordinates with plain contacts, in vectors |
 //! | `own_state`, `own_friction`, `own_events` | contacts with a state of their own: elastic sliders and bristles |
 //! | `departure` | how a number that is zero leaves zero |
-//! | `contact_masks` | what each contact does during a step, in every lane |
+//! | `contact_in_step` | what each contact does during a step |
 //! | `change_block`, `law_along_slip` | several changes side by side, and the slope of a law along a slip |
 //! | `guards`, `selection` | what ends a step, and what follows |
-//! | `lanes` | runs of many systems side by side |
+//! | `side_by_side` | many runs at once |
 //! | `few` | lists of the contacts of a moment, which are few |
 //! | `engine`, `drive`, `transitions` | a run, its loop, and what the contacts do at its events |
 //! | `one_mass` | runs of systems of one mass, by their own engine |
@@ -34,7 +34,7 @@
 mod change_block;
 mod change_series;
 mod contact_equation;
-mod contact_masks;
+mod contact_in_step;
 mod contact_meter;
 mod contact_series;
 mod departure;
@@ -46,7 +46,6 @@ mod extremes;
 mod few;
 mod guards;
 mod input_meter;
-mod lanes;
 mod law_along_slip;
 mod lyapunov;
 mod mass_piece;
@@ -58,6 +57,7 @@ mod own_state;
 mod phase;
 mod plain_contacts;
 mod plain_equations;
+mod plain_exchange;
 mod plain_step;
 mod rates;
 mod reading_sampler;
@@ -65,6 +65,7 @@ mod row_meter;
 mod rows;
 mod selection;
 mod series;
+mod side_by_side;
 mod speed_terms;
 mod state;
 mod step_recurrence;
@@ -88,7 +89,6 @@ use crate::simulation::DEFAULT_TOLERANCE;
 pub use contact_meter::{ContactMeans, ContactMeter};
 pub use engine::MOTION_TOLERANCE;
 pub use input_meter::{FedCost, InputCost, InputMeter, NoPower, SeriesCost};
-pub use lanes::{PlannedMotion, run_many, run_many_with};
 pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
@@ -100,6 +100,7 @@ pub use phase::ContactPhase;
 pub use reading_sampler::ReadingSampler;
 pub use row_meter::RowMeter;
 pub(crate) use row_meter::RowRange;
+pub use side_by_side::{PlannedMotion, run_many, run_many_with};
 pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};
 pub use variation::MotionVariation;

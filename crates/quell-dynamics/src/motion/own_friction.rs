@@ -4,34 +4,33 @@
 //! slider has no rate of its own: its series is that of T.
 
 use quell_model::friction::{BranchSeries, FrictionSeries};
-use quell_numerics::lane::{Lane, partial_product};
+use quell_numerics::lane::partial_product;
 
 use super::contact_equation::ContactEquation;
-use super::contact_masks::ContactMasks;
+use super::contact_in_step::ContactInStep;
 use super::contact_series::{ContactSeries, SeriesOf};
 use super::own_state::{OwnState, OwnStateKind};
-use super::rows::{StateRow, StateStorage};
+use super::rows::StateStorage;
 use crate::simulation::ORDER;
 
 /// Friction and state of a contact with a state of its own at order k, and its action on the structure.
 #[inline(always)]
-pub(super) fn friction<V: Lane, S: StateStorage<V>>(
+pub(super) fn friction<S: StateStorage>(
     storage: S,
     (k, own): (usize, OwnState),
-    contact: &ContactEquation<S::Row, V>,
-    masks: &ContactMasks<V>,
-    branch: &mut Option<FrictionSeries<'_, V, { ORDER + 1 }>>,
-    series: &mut ContactSeries<V>,
-    (state, rates): (&mut [V], &mut [V]),
+    contact: &ContactEquation,
+    phase: &ContactInStep,
+    branch: &mut Option<FrictionSeries<'_, f64, { ORDER + 1 }>>,
+    series: &mut ContactSeries,
+    (state, rates): (&mut [f64], &mut [f64]),
 ) {
-    let zero = V::splat(0.0);
     if let Some(branch) = branch {
         let w = series.slip[k] * contact.inverse_scale;
         series.scaled[k] = w;
         series.coefficient[k] = if k == 0 {
             branch.first()
         } else {
-            branch.slope().mul_add(w, branch.lower(k, &series.scaled))
+            f64::mul_add(branch.slope(), w, branch.lower(k, &series.scaled))
         };
     }
     let Some(mut inner) = series.own.take() else { return };
@@ -39,29 +38,27 @@ pub(super) fn friction<V: Lane, S: StateStorage<V>>(
         inner.carried = state[own.place];
     }
     let (force, rate) = match own.kind {
-        _ if masks.any_open => {
-            state[own.place] = zero;
-            (zero, zero)
+        _ if phase.is_open => {
+            state[own.place] = 0.0;
+            (0.0, 0.0)
         }
-        OwnStateKind::Elastic { .. } if masks.any_slips => {
+        OwnStateKind::Elastic { .. } if phase.slips => {
             let product = partial_product(&series.coefficient, &series.pressed, k, 0, k);
-            let force = V::splat(masks.turned) * product;
+            let force = phase.turned * product;
             state[own.place] = force;
-            (force, zero)
+            (force, 0.0)
         }
-        OwnStateKind::Elastic { stiffness } => {
-            (state[own.place], V::splat(stiffness) * series.slip[k])
-        }
+        OwnStateKind::Elastic { stiffness } => (state[own.place], stiffness * series.slip[k]),
         OwnStateKind::Bristles { stiffness, damping, viscous } => {
             let level = &series.coefficient;
             let rest = partial_product(level, &inner.turnover, k, 1, k);
-            let inverse = level[0].map(|level| 1.0 / level);
+            let inverse = 1.0 / level[0];
             inner.turnover[k] = (series.slip[k] - rest) * inverse;
             inner.deflection[k] = state[own.place];
             let slipped = partial_product(&inner.turnover, &inner.deflection, k, 0, k);
-            let rate = V::splat(-stiffness).mul_add(slipped, series.slip[k]);
-            let moving = V::splat(viscous).mul_add(series.slip[k], V::splat(damping) * rate);
-            inner.share[k] = V::splat(stiffness).mul_add(inner.deflection[k], moving);
+            let rate = f64::mul_add(-stiffness, slipped, series.slip[k]);
+            let moving = f64::mul_add(viscous, series.slip[k], damping * rate);
+            inner.share[k] = f64::mul_add(stiffness, inner.deflection[k], moving);
             (partial_product(&inner.share, &series.pressed, k, 0, k), rate)
         }
     };

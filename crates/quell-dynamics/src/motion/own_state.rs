@@ -15,7 +15,6 @@
 use quell_linear::steady::SteadyContact;
 use quell_model::friction::FrictionConstants;
 use quell_model::{Contact, Friction};
-use quell_numerics::lane::Lane;
 
 use super::phase::{ContactNow, ContactPhase, ElasticNow, OwnNow};
 use crate::simulation::ORDER;
@@ -100,20 +99,20 @@ pub(super) fn law_of(friction: &Friction) -> FrictionConstants {
 
 /// Series of a contact with a state of its own.
 #[derive(Clone, Debug)]
-pub(super) struct OwnSeries<V = f64> {
+pub(super) struct OwnSeries {
     /// T of an elastic slider where the step begins, from before its slip began or its load jumped.
-    pub(super) carried: V,
+    pub(super) carried: f64,
     /// z.
-    pub(super) deflection: [V; ORDER + 1],
+    pub(super) deflection: [f64; ORDER + 1],
     /// γ over the signed level: |γ|/g.
-    pub(super) turnover: [V; ORDER + 1],
+    pub(super) turnover: [f64; ORDER + 1],
     /// T/N.
-    pub(super) share: [V; ORDER + 1],
+    pub(super) share: [f64; ORDER + 1],
 }
 
-impl<V: Lane> OwnSeries<V> {
+impl OwnSeries {
     pub(super) fn zero() -> Self {
-        let zeros = [V::splat(0.0); ORDER + 1];
-        Self { carried: V::splat(0.0), deflection: zeros, turnover: zeros, share: zeros }
+        let zeros = [0.0; ORDER + 1];
+        Self { carried: 0.0, deflection: zeros, turnover: zeros, share: zeros }
     }
 }

@@ -1,68 +1,128 @@
-//! The steps of a run whose system has few coordinates and plain contacts: the coordinates side by side in one vector, the contacts in
-//! another, whichever of them slip or stick.
+//! The steps of runs whose systems have few coordinates and plain contacts: the coordinates of a run side by side in one vector, its
+//! contacts in another, whichever of them slip or stick. Two runs of up to two coordinates and two contacts share the vectors; one that
+//! is alone stands in them twice.
 //!
 //! The equations are those of `step_recurrence` for such a system, with every operation on every number in the same order: a step has
-//! the same bits here and there, so that a run may change from one to the other at any step, and machines without vectors of four
-//! numbers take the other for all.
+//! the same bits here and there, alone and next to any other run, so that a run may change from one to the other at any step, and
+//! machines without vectors of four numbers take the other for all.
 
-use quell_model::friction::FrictionConstants;
+use std::ops::Range;
+
+use quell_model::friction::{Friction, FrictionConstants};
 use quell_numerics::lane::Lane;
 
 use super::contact_series::SeriesOf;
 use super::engine::{MotionProgress, MotionRun, StepRoom};
 use super::expansion::ExpandedStep;
-use super::plain_equations::{MOST, PlainEquations, filled};
-use super::plain_step::{PlainHolding, PlainPhases, PlainSeries, PlainStep, PushSeries};
-use super::series::horner_states;
+use super::phase::ContactNow;
+use super::plain_equations::{MOST, PlainEquations};
+use super::plain_step::{
+    PlainNumbers, PlainPhases, PlainSeries, PlainStep, PushSeries, runs_of, set_push,
+};
 use super::step_recurrence::StepLimit;
 use crate::simulation::ORDER;
 
-/// A number of the coordinates or of the contacts side by side.
-#[inline(always)]
-fn vector<V: Lane>(numbers: &[f64]) -> V {
-    V::load(&filled(numbers))
+/// Most runs in the vectors.
+pub(super) const MOST_RUNS: usize = 2;
+
+/// What is known of a run in its lanes.
+#[derive(Clone, Copy, Debug, Default)]
+struct RunInLanes {
+    /// Whether its phases are those of the coming step.
+    are_known: bool,
+    /// Whether a slip velocity is zero at the start.
+    any_zeros: bool,
+    /// Whether vectors follow: no contact keeps its phase beyond a border or stands at its bound.
+    is_plain: bool,
+    /// Of the forces of its sticking contacts which [`MotionRun::refreshed`].
+    refreshed: u64,
 }
 
-/// A run in vectors: its numbers, and the series of its last step.
-pub(super) struct PlainVectors<'e, V: Lane> {
-    equations: &'e PlainEquations,
-    laws: FrictionConstants<V>,
-    phases: PlainPhases<V>,
-    surfaces_vary: bool,
-    holding: PlainHolding<V>,
-    /// N of the contacts.
-    pressed: V,
+/// The first force of all runs, if each is one harmonic wave.
+pub(super) struct HarmonicPush<V> {
+    pub(super) mean: V,
+    pub(super) rate: V,
+    pub(super) phase: V,
+    pub(super) table: SeriesOf<V>,
+}
+
+/// Runs in vectors: their numbers, and the series of their last step.
+pub(super) struct PlainVectors<V: Lane, const N: usize> {
+    /// Number of runs.
+    count: usize,
+    numbers: PlainNumbers<V>,
+    /// The laws of all lanes, and their constants.
+    laws: Vec<Friction>,
+    constants: FrictionConstants<V>,
+    phases: PlainPhases,
+    runs: [RunInLanes; MOST_RUNS],
+    pub(super) surfaces_vary: bool,
+    pub(super) harmonic: Option<HarmonicPush<V>>,
+    pub(super) limit: StepLimit<V>,
     /// Scales of displacements and velocities.
-    scales: [V; 2],
-    pushes: PushSeries,
-    series: PlainSeries<V>,
+    pub(super) scales: [V; 2],
+    pub(super) pushes: PushSeries<V>,
+    pub(super) series: PlainSeries<V>,
 }
 
-impl<'e, V: Lane> PlainVectors<'e, V> {
-    /// Of a run, whose loads must be constant and whose laws must differ in numbers alone.
-    pub(super) fn of(equations: &'e PlainEquations, run: &MotionRun<'_>) -> Option<Self> {
-        let forcings = &run.forcings.contacts;
-        let mut contacts = run.equations.contacts.iter().zip(forcings);
-        if !contacts.all(|(contact, forcing)| contact.is_plain(forcing)) {
-            return None;
+/// The equations of a run in vectors; `None` if its loads vary.
+pub(super) fn plain_of<'a>(run: &MotionRun<'a>) -> Option<&'a PlainEquations> {
+    let plain = run.equations.plain.as_ref()?;
+    let mut contacts = run.equations.contacts.iter().zip(&run.forcings.contacts);
+    contacts.all(|(contact, forcing)| contact.is_plain(forcing)).then_some(plain)
+}
+
+impl<V: Lane, const N: usize> PlainVectors<V, N> {
+    /// First lane of a run.
+    pub(super) const fn first_of(run: usize) -> usize {
+        run * N
+    }
+
+    /// The lanes in which a run stands, as numbers of runs: all where it is alone.
+    #[inline(always)]
+    pub(super) fn places(&self, run: usize) -> Range<usize> {
+        if self.count == 1 { 0..runs_of(N) } else { run..run + 1 }
+    }
+
+    /// The lanes in which a run stands.
+    #[inline(always)]
+    fn lanes(&self, run: usize) -> Range<usize> {
+        let places = self.places(run);
+        Self::first_of(places.start)..Self::first_of(places.end)
+    }
+
+    /// A number of each run, in all of its lanes.
+    #[inline(always)]
+    pub(super) fn of_runs(&self, numbers: [f64; MOST_RUNS]) -> V {
+        let [first, second] = numbers;
+        if const { N == MOST } || self.count == 1 {
+            return V::splat(first);
         }
-        let last = equations.contacts - 1;
-        let laws: Vec<_> = (0..V::LANES)
-            .map(|lane| run.system.contacts[lane.min(last)].friction.clone())
-            .collect();
-        let pressed: Vec<f64> =
-            run.series.contacts.iter().map(|series| series.pressed[0]).collect();
+        V::load(&[first, first, second, second])
+    }
+
+    /// Of one or two runs with equations; `None` if their laws differ in more than numbers.
+    pub(super) fn of(runs: &[&mut MotionRun<'_>]) -> Option<Self> {
+        let equations: Vec<&PlainEquations> =
+            runs.iter().map(|run| plain_of(run)).collect::<Option<_>>()?;
         let zero = V::splat(0.0);
         let (states, series) = ([zero; ORDER + 2], [zero; ORDER + 1]);
+        let others = equations.first()?.pushes.1.len();
+        let run_of = |lane: usize| &*runs[(lane / N).min(runs.len() - 1)];
+        let laws: Vec<Friction> =
+            (0..V::LANES).map(|lane| law_at(run_of(lane), lane % N)).collect();
         let mut vectors = Self {
-            equations,
-            laws: FrictionConstants::side_by_side(&laws)?,
-            phases: PlainPhases::unknown(),
-            surfaces_vary: !forcings.iter().all(|forcing| forcing.surface.is_constant()),
-            holding: PlainHolding::none(),
-            pressed: vector(&pressed),
+            count: runs.len(),
+            numbers: PlainNumbers::zeros(others),
+            constants: FrictionConstants::side_by_side(&laws)?,
+            laws,
+            phases: PlainPhases::none(),
+            runs: [RunInLanes::default(); MOST_RUNS],
+            surfaces_vary: false,
+            harmonic: None,
+            limit: StepLimit { tolerance: zero, time_scale: zero, longest: zero, room: zero },
             scales: [zero; 2],
-            pushes: ([0.0; ORDER + 1], run.series.pushes.iter().skip(1).copied().collect()),
+            pushes: (series, vec![series; others]),
             series: PlainSeries {
                 displacements: states,
                 velocities: states,
@@ -72,171 +132,237 @@ impl<'e, V: Lane> PlainVectors<'e, V> {
                 friction: series,
             },
         };
-        for (place, contact) in run.series.contacts.iter().enumerate() {
-            vectors.series.set_surface(place, &contact.surface);
+        for (number, (run, equations)) in runs.iter().zip(equations).enumerate() {
+            vectors.admit(number, run, equations);
         }
-        vectors.read_scales(run);
+        vectors.harmonic = vectors.harmonic_push(runs);
         Some(vectors)
     }
 
-    /// The run to its end, with as many coordinates and contacts as `N` at most.
-    #[inline(always)]
-    pub(super) fn run<const N: usize>(mut self, run: &mut MotionRun<'_>) -> MotionProgress {
-        while !run.is_over() {
-            let room = run.prepare()?;
-            if self.follows(run) {
-                let step = self.step::<N>(run, room);
-                run.accept(step, room)?;
-            } else {
-                self.write_scales(run);
-                let step = run.expand(room.longest, room.room);
-                self.read_scales(run);
-                run.accept(step, room)?;
-                self.phases.are_known = false;
+    /// Puts a run in the place of one that has ended; `None` if it does not suit the other.
+    pub(super) fn replace(&mut self, number: usize, runs: &[&mut MotionRun<'_>]) -> Option<()> {
+        let run = &*runs[number];
+        let equations = plain_of(run)?;
+        let first = Self::first_of(number);
+        let is_new = |place: &usize| self.laws[first + place] != law_at(run, *place);
+        if (0..N).any(|place| is_new(&place)) {
+            for place in 0..N {
+                self.laws[first + place] = law_at(run, place);
             }
+            self.constants = FrictionConstants::side_by_side(&self.laws)?;
         }
-        self.write_scales(run);
-        Ok(())
+        self.runs[number] = RunInLanes::default();
+        self.admit(number, run, equations);
+        self.harmonic = self.harmonic_push(runs);
+        Some(())
     }
 
-    fn read_scales(&mut self, run: &MotionRun<'_>) {
-        let (upper, lower) = run.series.scales.split_at(self.equations.coordinates);
-        self.scales = [vector(upper), vector(lower)];
-    }
-
-    fn write_scales(&self, run: &mut MotionRun<'_>) {
-        let (upper, lower) = run.series.scales.split_at_mut(self.equations.coordinates);
-        for (scales, out) in self.scales.iter().zip([upper, lower]) {
-            write(*scales, out);
-        }
-    }
-
-    /// Reads what the contacts do now. Whether vectors follow it.
-    #[inline(always)]
-    fn follows(&mut self, run: &MotionRun<'_>) -> bool {
-        if !self.phases.are_known {
-            self.phases.set(&run.now);
-        }
-        if self.holding.refreshed != run.refreshed {
-            self.holding.set(run.refreshed, &run.stuck);
-        }
-        self.phases.is_plain
-    }
-
-    /// A step of the run, whose end is in its `scratch`, and whose series are written to it if it is observed or a guard may end it.
-    #[inline(always)]
-    fn step<const N: usize>(&mut self, run: &mut MotionRun<'_>, room: StepRoom) -> ExpandedStep {
-        self.begin(run);
-        let StepRoom { longest, room, .. } = room;
-        let MotionRun { tolerance, time_scale, .. } = *run;
-        let limit = StepLimit { tolerance, time_scale, longest, room };
-        let Self { equations, laws, phases, holding, pressed, scales, pushes, series, .. } = self;
-        let (phases, holding, pressed) = (&*phases, &*holding, *pressed);
-        let length = laws.visit(PlainStep::<V, N> {
-            equations,
-            phases,
-            holding,
-            pressed,
-            scales,
-            pushes,
-            series,
-            limit,
-        });
-        let is_clear = series.is_clear(equations, phases, pressed, length);
-        if run.watched || !is_clear {
-            series.write::<N>(equations, run);
-        }
-        if let (true, Some((first, others))) = (run.watched, run.series.pushes.split_first_mut()) {
-            *first = pushes.0;
-            others.copy_from_slice(&pushes.1);
-        }
-        let reached = if is_clear { None } else { run.guards().first(length) };
-        let duration = reached.map_or(length, |reached| reached.after);
-        series.end(duration, equations.coordinates, &mut run.scratch);
-        self.phases.are_known = reached.is_none() && !self.phases.any_zeros;
-        ExpandedStep { duration, reached }
-    }
-
-    /// The state at the start, and what varies in time.
-    #[inline(always)]
-    fn begin(&mut self, run: &MotionRun<'_>) {
-        let (upper, lower) = run.series.start().split_at(self.equations.coordinates);
-        self.series.displacements[0] = vector(upper);
-        self.series.velocities[0] = vector(lower);
-        if let Some((first, others)) = run.forcings.pushes.split_first() {
-            self.pushes.0 = first.series(run.clock);
-            for (series, forcing) in self.pushes.1.iter_mut().zip(others) {
-                *series = forcing.series(run.clock);
+    /// Writes the numbers of a run.
+    fn admit(&mut self, number: usize, run: &MotionRun<'_>, equations: &PlainEquations) {
+        let surfaces = run.forcings.contacts.iter().map(|forcing| &forcing.surface);
+        self.surfaces_vary |= surfaces.into_iter().any(|surface| !surface.is_constant());
+        for at in self.places(number) {
+            let first = Self::first_of(at);
+            self.numbers.set::<N>(first, equations);
+            for (place, contact) in run.series.contacts.iter().enumerate() {
+                self.numbers.pressed.set_lane(first + place, contact.pressed[0]);
+                self.series.set_surface(first + place, &contact.surface);
             }
-        }
-        if self.surfaces_vary {
-            for (place, forcing) in run.forcings.contacts.iter().enumerate() {
-                self.series.set_surface(place, &forcing.surface.series(run.clock));
+            for place in 0..N {
+                self.limit.tolerance.set_lane(first + place, run.tolerance);
+                self.limit.time_scale.set_lane(first + place, run.time_scale);
             }
-        }
-    }
-}
-
-/// Writes the first numbers of a vector.
-#[inline(always)]
-fn write<V: Lane>(numbers: V, out: &mut [f64]) {
-    // One by one, because a copy of so few is a call.
-    for (place, out) in out.iter_mut().enumerate().take(MOST) {
-        *out = numbers.lane(place);
-    }
-}
-
-impl<V: Lane> PlainSeries<V> {
-    #[inline(always)]
-    fn set_surface(&mut self, place: usize, surface: &SeriesOf<f64>) {
-        for (out, term) in self.surfaces.iter_mut().zip(surface) {
-            out.set_lane(place, *term);
-        }
-    }
-
-    /// The state after a time.
-    #[inline(always)]
-    fn end(&self, since: f64, coordinates: usize, out: &mut [f64]) {
-        let since = V::splat(since);
-        let (upper, lower) = out.split_at_mut(coordinates);
-        for (states, out) in [&self.displacements, &self.velocities].into_iter().zip([upper, lower])
-        {
-            let mut end = [V::splat(0.0)];
-            horner_states(states, since, &mut end);
-            write(end[0], out);
-        }
-    }
-
-    /// Writes the series to a run.
-    #[inline(always)]
-    fn write<const N: usize>(&self, equations: &PlainEquations, run: &mut MotionRun<'_>) {
-        let (coordinates, states) = (equations.coordinates, &mut run.series.states[..]);
-        if coordinates == N {
-            let orders = states.as_chunks_mut::<N>().0.as_chunks_mut::<2>().0.iter_mut();
-            let known = self.displacements.iter().zip(&self.velocities);
-            for ([upper, lower], (displacement, velocity)) in orders.zip(known) {
-                *upper = std::array::from_fn(|i| displacement.lane(i));
-                *lower = std::array::from_fn(|i| velocity.lane(i));
-            }
-        } else {
-            for (k, states) in states.chunks_exact_mut(2 * coordinates).enumerate() {
-                let (upper, lower) = states.split_at_mut(coordinates);
-                write(self.displacements[k], upper);
-                write(self.velocities[k], lower);
-            }
-        }
-        for place in 0..N {
-            let Some(contact) = run.series.contacts.get_mut(place) else { break };
-            for k in 0..=ORDER {
-                contact.slip[k] = self.slip[k].lane(place);
-                contact.scaled[k] = self.scaled[k].lane(place);
-                contact.friction[k] = self.friction[k].lane(place);
-            }
-            if !run.forcings.contacts[place].surface.is_constant() {
-                for k in 0..=ORDER {
-                    contact.surface[k] = self.surfaces[k].lane(place);
+            let pushes = std::iter::once(&mut self.pushes.0).chain(&mut self.pushes.1);
+            for (series, forcing) in pushes.zip(&run.forcings.pushes) {
+                if forcing.is_constant() {
+                    set_push::<V, N>(series, first, &forcing.series(run.clock));
                 }
             }
         }
+        self.read_scales(number, run);
     }
+
+    /// The waves of the first force, if every run has one.
+    fn harmonic_push(&self, runs: &[&mut MotionRun<'_>]) -> Option<HarmonicPush<V>> {
+        let zero = V::splat(0.0);
+        let mut push =
+            HarmonicPush { mean: zero, rate: zero, phase: zero, table: [zero; ORDER + 1] };
+        for (number, run) in runs.iter().enumerate() {
+            let forcing = run.forcings.pushes.first().filter(|forcing| forcing.is_harmonic())?;
+            let (rate, phase, table) = forcing.wave();
+            for lane in self.lanes(number) {
+                push.mean.set_lane(lane, forcing.mean());
+                push.rate.set_lane(lane, rate);
+                push.phase.set_lane(lane, phase);
+                for (row, entry) in push.table.iter_mut().zip(table) {
+                    row.set_lane(lane, entry);
+                }
+            }
+        }
+        Some(push)
+    }
+
+    /// Takes steps until a run is over or stops: how those ended that did.
+    #[inline(always)]
+    pub(super) fn advance(
+        &mut self,
+        runs: &mut [&mut MotionRun<'_>],
+    ) -> [Option<MotionProgress>; MOST_RUNS] {
+        let mut ended = [None, None];
+        let mut goes_on = true;
+        while goes_on {
+            let mut rooms = [StepRoom::default(); MOST_RUNS];
+            for (number, run) in runs.iter_mut().enumerate().take(MOST_RUNS) {
+                if run.is_over() {
+                    (ended[number], goes_on) = (Some(Ok(())), false);
+                    continue;
+                }
+                match run.prepare() {
+                    Ok(room) => rooms[number] = room,
+                    Err(why) => (ended[number], goes_on) = (Some(Err(why)), false),
+                }
+            }
+            if !goes_on {
+                break;
+            }
+            if self.follow(runs) {
+                let steps = self.step(runs, &rooms);
+                for (number, run) in runs.iter_mut().enumerate().take(MOST_RUNS) {
+                    if let Err(why) = run.accept(steps[number], rooms[number]) {
+                        (ended[number], goes_on) = (Some(Err(why)), false);
+                    }
+                }
+                continue;
+            }
+            // The others wait.
+            for (number, run) in runs.iter_mut().enumerate() {
+                if self.runs[number].is_plain {
+                    continue;
+                }
+                if let Err(why) = self.step_alone(number, run, rooms[number]) {
+                    (ended[number], goes_on) = (Some(Err(why)), false);
+                }
+            }
+        }
+        for (number, run) in runs.iter_mut().enumerate() {
+            self.write_scales(number, run);
+        }
+        ended
+    }
+
+    /// A step of one run by the equations of any system.
+    fn step_alone(
+        &mut self,
+        number: usize,
+        run: &mut MotionRun<'_>,
+        room: StepRoom,
+    ) -> MotionProgress {
+        self.write_scales(number, run);
+        let step = run.expand(room.longest, room.room);
+        self.read_scales(number, run);
+        self.runs[number].are_known = false;
+        run.accept(step, room)
+    }
+
+    /// Reads what the contacts of every run do now. Whether vectors follow all of them.
+    #[inline(always)]
+    fn follow(&mut self, runs: &[&mut MotionRun<'_>]) -> bool {
+        let mut changed = false;
+        for (number, run) in runs.iter().enumerate() {
+            if !self.runs[number].are_known {
+                let leaves = |now: &ContactNow| now.is_open() || now.kept || now.saturated != 0;
+                self.runs[number].are_known = true;
+                self.runs[number].any_zeros = run.now.iter().any(|now| now.slip_zeros > 0);
+                self.runs[number].is_plain = !run.now.iter().any(leaves);
+                for at in self.places(number) {
+                    let first = Self::first_of(at);
+                    self.phases.set::<N>(first, &run.now);
+                }
+                changed = true;
+            }
+            if self.runs[number].refreshed != run.refreshed {
+                self.runs[number].refreshed = run.refreshed;
+                for at in self.places(number) {
+                    let first = Self::first_of(at);
+                    self.numbers.hold::<N>(first, &run.stuck);
+                }
+            }
+        }
+        if changed {
+            self.phases.combine::<N>();
+        }
+        let mut all = true;
+        for known in &self.runs[..self.count] {
+            all &= known.is_plain;
+        }
+        all
+    }
+
+    /// A step of every run, whose end is in its `scratch`, and whose series are written to it if it is observed or a guard may end it.
+    #[inline(always)]
+    fn step(
+        &mut self,
+        runs: &mut [&mut MotionRun<'_>],
+        rooms: &[StepRoom; MOST_RUNS],
+    ) -> [ExpandedStep; MOST_RUNS] {
+        self.begin(runs, rooms);
+        let Self { numbers, constants, phases, scales, pushes, series, limit, .. } = self;
+        let (numbers, phases, limit) = (&*numbers, &*phases, *limit);
+        let length =
+            constants.visit(PlainStep::<V, N> { numbers, phases, scales, pushes, series, limit });
+        let is_alone = const { N < MOST } && self.count == 1;
+        let doubts = self.series.doubts(&self.numbers, &self.phases, (length, is_alone));
+        let is_clear = !doubts.any_positive();
+        let mut steps = [ExpandedStep { duration: 0.0, reached: None }; MOST_RUNS];
+        let mut durations = length;
+        for (number, run) in runs.iter_mut().enumerate() {
+            let step = self.ended(number, run, (is_clear, doubts, length));
+            if step.reached.is_some() {
+                for lane in self.lanes(number) {
+                    durations.set_lane(lane, step.duration);
+                }
+            }
+            steps[number] = step;
+        }
+        self.end(durations, runs);
+        steps
+    }
+
+    /// The length of the step of a run, up to the first guard that reaches zero.
+    #[inline(always)]
+    fn ended(
+        &mut self,
+        number: usize,
+        run: &mut MotionRun<'_>,
+        (all_clear, doubts, length): (bool, V, V),
+    ) -> ExpandedStep {
+        let length = length.lane(Self::first_of(number));
+        let mut is_clear = true;
+        if !all_clear {
+            for lane in self.lanes(number) {
+                is_clear &= doubts.lane(lane) <= 0.0;
+            }
+        }
+        if run.watched || !is_clear {
+            // By the place of the run at compile time, so that each number is read by one instruction.
+            if number == 0 { self.write::<0>(run) } else { self.write::<1>(run) }
+        }
+        let may = |contact: usize| {
+            let mut may = false;
+            for at in self.places(number) {
+                may |= doubts.lane(Self::first_of(at) + contact) > 0.0;
+            }
+            may
+        };
+        let reached = if is_clear { None } else { run.guards().first_among(may, length) };
+        let known = &mut self.runs[number];
+        known.are_known = reached.is_none() && !known.any_zeros;
+        ExpandedStep { duration: reached.map_or(length, |reached| reached.after), reached }
+    }
+}
+
+/// The law of the contact of a run at a place, or of its last contact.
+fn law_at(run: &MotionRun<'_>, place: usize) -> Friction {
+    let contacts = &run.system.contacts;
+    contacts[place.min(contacts.len() - 1)].friction.clone()
 }

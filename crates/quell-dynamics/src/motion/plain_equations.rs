@@ -1,7 +1,7 @@
 //! The equations of a system of few coordinates whose contacts are plain, as vectors of four numbers.
 
 use super::contact_equation::ContactEquation;
-use super::rows::{RowEntries, StateMatrix, StateRow};
+use super::rows::{RowEntries, StateMatrix};
 
 /// Most coordinates, and most contacts.
 pub(super) const MOST: usize = 4;

@@ -7,8 +7,6 @@
 use quell_numerics::lane::Lane;
 use quell_numerics::matrix::Matrix;
 
-use super::contact_masks::chosen;
-
 /// RowEntries of a row or of a column over the state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RowEntries {
@@ -46,6 +44,12 @@ impl RowEntries {
         }
         let start = first + offset;
         Self { start, values: values[first..=last].to_vec(), scattered: Vec::new(), dense }
+    }
+
+    /// Whether there is no entry.
+    #[inline(always)]
+    pub(super) fn is_empty(&self) -> bool {
+        self.values.is_empty() && self.scattered.is_empty()
     }
 
     /// The row times a state.
@@ -259,13 +263,10 @@ fn product<const N: usize>(columns: &[[f64; N]], state: &[f64]) -> [f64; N] {
     sums
 }
 
-/// How the equations of a step read rows and columns over the state, and the state matrix, in every lane.
-pub(super) trait StateStorage<V: Lane>: Copy {
+/// How the equations of a step read rows and columns over the state, and the state matrix.
+pub(super) trait StateStorage: Copy {
     /// Numbers over the state that last for one step.
-    type Buffer: AsMut<[V]>;
-
-    /// A row or a column over the state.
-    type Row: StateRow;
+    type Buffer: AsMut<[f64]>;
 
     /// Whether the matrix may depend on a speed over time: the others are for constant matrices, and have no code for it.
     const TAKES_SPEED: bool = false;
@@ -274,67 +275,20 @@ pub(super) trait StateStorage<V: Lane>: Copy {
     fn size(self) -> usize;
 
     /// A buffer, from the memory that is kept between steps where there is no better place.
-    fn buffer(self, kept: &mut Vec<V>) -> Self::Buffer;
+    fn buffer(self, kept: &mut Vec<f64>) -> Self::Buffer;
 
     /// Returns the memory of a buffer, which is on the stack where it is not kept.
     #[inline(always)]
-    fn keep(self, _: Self::Buffer, _: &mut Vec<V>) {}
+    fn keep(self, _: Self::Buffer, _: &mut Vec<f64>) {}
 
     /// A row times a state.
-    fn dot(self, row: &Self::Row, state: &[V]) -> V;
+    fn dot(self, row: &RowEntries, state: &[f64]) -> f64;
 
     /// Adds `factor` times a column to a state.
-    fn add(self, column: &Self::Row, factor: V, state: &mut [V]);
-
-    /// The same where `mask` is positive, which it is in one lane at least: of one run always.
-    #[inline(always)]
-    fn add_where(self, _: V, column: &Self::Row, factor: V, state: &mut [V]) {
-        self.add(column, factor, state);
-    }
+    fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]);
 
     /// Writes the state matrix times a state to `out`.
-    fn times(self, state: &[V], out: &mut [V]);
-}
-
-/// A row or a column over the state.
-pub(super) trait StateRow {
-    /// Whether there is no entry.
-    fn is_empty(&self) -> bool;
-}
-
-impl StateRow for RowEntries {
-    #[inline(always)]
-    fn is_empty(&self) -> bool {
-        self.values.is_empty() && self.scattered.is_empty()
-    }
-}
-
-/// Rows or columns over at most [`SMALL`] states, one per lane.
-#[derive(Clone, Debug)]
-pub(super) struct LaneEntries<V> {
-    is_empty: bool,
-    dense: [V; SMALL],
-}
-
-impl<V: Lane> LaneEntries<V> {
-    /// Zeros, in the place of rows that are empty or not as `row` is.
-    pub(super) fn like(row: &RowEntries) -> Self {
-        Self { is_empty: row.is_empty(), dense: [V::splat(0.0); SMALL] }
-    }
-
-    /// Writes the row of one lane.
-    pub(super) fn set(&mut self, lane: usize, row: &RowEntries) {
-        for (numbers, value) in self.dense.iter_mut().zip(row.dense) {
-            numbers.set_lane(lane, value);
-        }
-    }
-}
-
-impl<V> StateRow for LaneEntries<V> {
-    #[inline(always)]
-    fn is_empty(&self) -> bool {
-        self.is_empty
-    }
+    fn times(self, state: &[f64], out: &mut [f64]);
 }
 
 /// Any number of states.
@@ -346,9 +300,8 @@ pub(super) struct ManyStates<'a> {
     pub(super) by_halves: bool,
 }
 
-impl StateStorage<f64> for ManyStates<'_> {
+impl StateStorage for ManyStates<'_> {
     type Buffer = Vec<f64>;
-    type Row = RowEntries;
 
     const TAKES_SPEED: bool = true;
 
@@ -400,9 +353,8 @@ impl<'a, const N: usize> FewStates<'a, N> {
     }
 }
 
-impl<const N: usize> StateStorage<f64> for FewStates<'_, N> {
+impl<const N: usize> StateStorage for FewStates<'_, N> {
     type Buffer = [f64; N];
-    type Row = RowEntries;
 
     #[inline(always)]
     fn size(self) -> usize {
@@ -450,9 +402,8 @@ impl<'a> SmallStates<'a> {
     }
 }
 
-impl StateStorage<f64> for SmallStates<'_> {
+impl StateStorage for SmallStates<'_> {
     type Buffer = [f64; SMALL];
-    type Row = RowEntries;
 
     #[inline(always)]
     fn size(self) -> usize {
@@ -483,58 +434,6 @@ impl StateStorage<f64> for SmallStates<'_> {
             for (sum, value) in out[..self.size].iter_mut().zip(column) {
                 *sum = f64::mul_add(*value, *entry, *sum);
             }
-        }
-    }
-}
-
-/// As many states of several runs as [`SmallStates`] of each, and with its bits: the matrices in all lanes, column by column.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LaneStates<'a, V> {
-    pub(super) size: usize,
-    pub(super) columns: &'a [V],
-}
-
-impl<V: Lane> StateStorage<V> for LaneStates<'_, V> {
-    type Buffer = [V; SMALL];
-    type Row = LaneEntries<V>;
-
-    #[inline(always)]
-    fn size(self) -> usize {
-        self.size
-    }
-
-    #[inline(always)]
-    fn buffer(self, _: &mut Vec<V>) -> [V; SMALL] {
-        [V::splat(0.0); SMALL]
-    }
-
-    #[inline(always)]
-    fn dot(self, row: &LaneEntries<V>, state: &[V]) -> V {
-        dot_by_halves(&row.dense[..self.size], &state[..self.size])
-    }
-
-    #[inline(always)]
-    fn add(self, column: &LaneEntries<V>, factor: V, state: &mut [V]) {
-        for (entry, value) in state[..self.size].iter_mut().zip(&column.dense) {
-            *entry = value.mul_add(factor, *entry);
-        }
-    }
-
-    #[inline(always)]
-    fn add_where(self, mask: V, column: &LaneEntries<V>, factor: V, state: &mut [V]) {
-        for (entry, value) in state[..self.size].iter_mut().zip(&column.dense) {
-            *entry = chosen(mask, value.mul_add(factor, *entry), *entry);
-        }
-    }
-
-    #[inline(always)]
-    fn times(self, state: &[V], out: &mut [V]) {
-        for (i, out) in out[..self.size].iter_mut().enumerate() {
-            let mut sum = V::splat(0.0);
-            for (column, entry) in self.columns.chunks_exact(self.size).zip(state) {
-                sum = column[i].mul_add(*entry, sum);
-            }
-            *out = sum;
         }
     }
 }
@@ -615,10 +514,7 @@ mod tests {
     }
 
     /// A row, a column and the matrix in a storage against the form for any number of states.
-    fn has_the_bits_of_many<S: StateStorage<f64, Row = RowEntries>>(
-        storage: S,
-        form: &StateMatrix,
-    ) {
+    fn has_the_bits_of_many<S: StateStorage>(storage: S, form: &StateMatrix) {
         let size = storage.size();
         let many = ManyStates { size, matrix: form, by_halves: true };
         let state: Vec<f64> = (0..size).map(|i| 0.3 * i as f64 - 1.0).collect();

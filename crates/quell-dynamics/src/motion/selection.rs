@@ -64,6 +64,79 @@ pub(super) struct Selected {
     pub(super) saturated: Few<i8>,
 }
 
+/// A contact whose slip velocity is zero, and which no other of them moves at once: it decides alone, as [`Moment::decide`] does for such
+/// contacts together.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LoneMoment {
+    /// G of the contact.
+    pub(super) coupling: f64,
+    /// w.
+    pub(super) acceleration: f64,
+    /// μ_s N.
+    pub(super) holding: f64,
+    /// μ(0⁺) N.
+    pub(super) sliding: f64,
+    /// Direction in which its force has just reached its bound, or 0.
+    pub(super) reached: i8,
+}
+
+impl LoneMoment {
+    /// The direction in which it slips, 0 for stick, and whether its slip acceleration vanishes; `None` where that is not decided.
+    pub(super) fn decide(&self) -> Option<(i8, bool)> {
+        let (force, _, place) = self.boxed(self.holding)?;
+        let at_bound = side(force, self.holding, place);
+        let near = force * f64::from(self.reached) >= self.holding * (1.0 - NEAR_BOUND);
+        if at_bound == 0 && !(self.reached != 0 && near) {
+            return Some((0, false));
+        }
+        let (force, rate, place) = self.boxed(self.sliding)?;
+        let direction = side(force, self.sliding, place);
+        Some((direction, direction != 0 && self.is_at_rest(rate)))
+    }
+
+    fn is_at_rest(&self, rate: f64) -> bool {
+        let terms = (self.coupling * self.holding).abs() + self.acceleration.abs();
+        rate.abs() <= ZERO_ACCELERATION * terms
+    }
+
+    /// Force, γ̇ and place of the box problem |T| ≤ `bound`.
+    fn boxed(&self, bound: f64) -> Option<(f64, f64, i8)> {
+        let mut place = 0_i8;
+        // Rounding may make two places alternate.
+        for _ in 0..MOST_CHANGES {
+            let inside = self.acceleration / self.coupling;
+            let force = if place == 0 { inside } else { f64::from(place) * bound };
+            if !force.is_finite() {
+                return None;
+            }
+            let rate = self.acceleration - self.coupling * force;
+            place = match place {
+                0 if force > bound => 1,
+                0 if force < -bound => -1,
+                1 if rate < 0.0 && !self.is_at_rest(rate) => 0,
+                -1 if rate > 0.0 && !self.is_at_rest(rate) => 0,
+                _ => return Some((force, rate, place)),
+            };
+        }
+        None
+    }
+}
+
+/// Bound at which a force stands; 0 inside.
+fn side(force: f64, bound: f64, place: i8) -> i8 {
+    if place != 0 {
+        return place;
+    }
+    match (force.abs() >= bound * (1.0 - AT_BOUND), force >= 0.0) {
+        (false, _) => 0,
+        (true, true) => 1,
+        (true, false) => -1,
+    }
+}
+
+/// Changes of places in a box problem of few contacts.
+const MOST_CHANGES: usize = 64;
+
 /// Solution of a box problem.
 #[derive(Clone, Debug)]
 struct Boxed {
@@ -77,15 +150,7 @@ struct Boxed {
 impl Boxed {
     /// Bound at which a force stands; 0 inside.
     fn side(&self, c: usize, bounds: &[f64]) -> i8 {
-        if self.places[c] != 0 {
-            return self.places[c];
-        }
-        let near = self.forces[c].abs() >= bounds[c] * (1.0 - AT_BOUND);
-        match (near, self.forces[c] >= 0.0) {
-            (false, _) => 0,
-            (true, true) => 1,
-            (true, false) => -1,
-        }
+        side(self.forces[c], bounds[c], self.places[c])
     }
 }
 
@@ -167,7 +232,7 @@ impl Moment {
         let size = self.size();
         let mut places: Few<i8> = Few::from_elem(0, size);
         // Murty's rule ends; the count only guards against rounding that makes two sets alternate.
-        for _ in 0..(1_usize << size.min(12)).saturating_mul(8).max(64) {
+        for _ in 0..(1_usize << size.min(12)).saturating_mul(8).max(MOST_CHANGES) {
             let forces = self.forces(bounds, &places)?;
             let rates: Few<f64> = (0..size)
                 .map(|c| {
@@ -287,6 +352,8 @@ fn determinant(matrix: &Matrix, members: &[usize]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use quell_numerics::random::SplitMix;
+
     use super::*;
 
     fn moment(
@@ -318,6 +385,41 @@ mod tests {
     }
 
     #[test]
+    fn contacts_that_do_not_move_each_other_decide_alone() {
+        let mut generator = SplitMix::new(7);
+        let mut random = || generator.share() - 0.5;
+        let mut counts = [0; 3];
+        for number in 0..4000 {
+            let coupling = [0, 1].map(|_| 1.0 + random());
+            let holding = [0, 1].map(|_| 0.4 + 0.2 * random());
+            let sliding = holding.map(|bound| if number % 3 == 0 { bound } else { 0.8 * bound });
+            // Many forces at their bounds, to rounding or next to it.
+            let accelerations: [f64; 2] = std::array::from_fn(|c| {
+                let shares = [random() * 3.0, 1.0, -1.0, 1.0 + 1e-11, 1.0 - 1e-8, 0.8];
+                shares[(number + 3 * c) % shares.len()] * coupling[c] * holding[c]
+            });
+            let reached: [i8; 2] = std::array::from_fn(|c| [0, 1, -1][(number / 6 + c) % 3]);
+            let mut both =
+                moment([[coupling[0], 0.0], [0.0, coupling[1]]], accelerations, holding, sliding);
+            both.reached = Few::from_slice(&reached);
+            let selected = both.decide().expect("a P-matrix");
+            for c in 0..2 {
+                let alone = LoneMoment {
+                    coupling: coupling[c],
+                    acceleration: accelerations[c],
+                    holding: holding[c],
+                    sliding: sliding[c],
+                    reached: reached[c],
+                };
+                let together = (selected.directions[c], selected.is_smooth[c]);
+                assert_eq!(alone.decide(), Some(together), "{alone:?}");
+                counts[usize::from(together.0 != 0) + usize::from(together.1)] += 1;
+            }
+        }
+        assert!(counts.iter().all(|count| *count > 300), "{counts:?}");
+    }
+
+    #[test]
     fn two_dependent_contacts_release_together_at_the_sum_of_their_bounds() {
         for (force, expected) in [(0.3, [0, 0]), (0.45, [0, 0]), (0.51, [1, 1])] {
             let mut pads = moment([[1.0, 1.0], [1.0, 1.0]], [force; 2], [0.2, 0.3], [0.12, 0.18]);
@@ -330,13 +432,8 @@ mod tests {
 
     #[test]
     fn the_box_problem_agrees_with_every_set() {
-        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut random = move || {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
+        let mut generator = SplitMix::new(7);
+        let mut random = || generator.share() - 0.5;
         for _ in 0..500 {
             let entries: Vec<f64> = (0..20).map(|_| random()).collect();
             let root = Matrix::from_fn(4, 5, |i, j| entries[5 * i + j]);

@@ -14,18 +14,18 @@ use crate::simulation::{Clock, ORDER};
 
 /// Series of a step; the memory is kept from step to step.
 #[derive(Clone, Debug)]
-pub(super) struct StepSeries<V = f64> {
+pub(super) struct StepSeries {
     size: usize,
     /// Order by order, the state side by side.
-    pub(super) states: Vec<V>,
+    pub(super) states: Vec<f64>,
     /// Memory of the state and its rates of one order.
-    pub(super) buffers: [Vec<V>; 2],
-    pub(super) pushes: Vec<SeriesOf<V>>,
-    pub(super) contacts: Vec<ContactSeries<V>>,
+    pub(super) buffers: [Vec<f64>; 2],
+    pub(super) pushes: Vec<SeriesOf<f64>>,
+    pub(super) contacts: Vec<ContactSeries>,
     /// The terms of a speed over time: none in lanes.
-    pub(super) by_speed: Option<Box<SpeedSeries<V>>>,
+    pub(super) by_speed: Option<Box<SpeedSeries>>,
     /// Magnitude of every number of the state in the last steps, over the time scale of the system.
-    pub(super) scales: Vec<V>,
+    pub(super) scales: Vec<f64>,
 }
 
 impl StepSeries {
@@ -53,15 +53,15 @@ impl StepSeries {
     }
 }
 
-impl<V: Lane> StepSeries<V> {
+impl StepSeries {
     /// With a state of zeros.
-    pub(super) fn with(size: usize, pushes: usize, contacts: Vec<ContactSeries<V>>) -> Self {
-        let zeros = |count: usize| vec![V::splat(0.0); count];
+    pub(super) fn with(size: usize, pushes: usize, contacts: Vec<ContactSeries>) -> Self {
+        let zeros = |count: usize| vec![0.0; count];
         Self {
             size,
             states: zeros((ORDER + 2) * size),
             buffers: [zeros(size), zeros(size)],
-            pushes: vec![[V::splat(0.0); ORDER + 1]; pushes],
+            pushes: vec![[0.0; ORDER + 1]; pushes],
             contacts,
             by_speed: None,
             scales: zeros(size),
@@ -69,12 +69,12 @@ impl<V: Lane> StepSeries<V> {
     }
 
     /// The state at the start of the step.
-    pub(super) fn start(&self) -> &[V] {
+    pub(super) fn start(&self) -> &[f64] {
         &self.states[..self.size]
     }
 
     /// Sets the state at the start of the next step.
-    pub(super) fn set_start(&mut self, state: &[V]) {
+    pub(super) fn set_start(&mut self, state: &[f64]) {
         self.states[..self.size].copy_from_slice(state);
     }
 }

@@ -9,7 +9,7 @@
 
 use quell_model::system::{Mechanical, SpeedDependence};
 use quell_numerics::interval::RealInterval;
-use quell_numerics::lane::{Lane, partial_product};
+use quell_numerics::lane::partial_product;
 use quell_numerics::matrix::Matrix;
 
 use super::contact_series::SeriesOf;
@@ -37,10 +37,10 @@ struct MatrixEntry {
 
 /// The factors Ω, Ω² and Ω′ on a step, and A_j x of its orders.
 #[derive(Clone, Debug)]
-pub(super) struct SpeedSeries<V = f64> {
-    factors: [SeriesOf<V>; 3],
+pub(super) struct SpeedSeries {
+    factors: [SeriesOf<f64>; 3],
     /// Row by row.
-    images: [Vec<SeriesOf<V>>; 3],
+    images: [Vec<SeriesOf<f64>>; 3],
 }
 
 impl SpeedMatrices {
@@ -97,24 +97,18 @@ impl SpeedMatrices {
 
     /// Adds the terms of order k to the rates of the state.
     #[inline(always)]
-    pub(super) fn add<V: Lane>(
-        &self,
-        k: usize,
-        series: &mut SpeedSeries<V>,
-        state: &[V],
-        rates: &mut [V],
-    ) {
+    pub(super) fn add(&self, k: usize, series: &mut SpeedSeries, state: &[f64], rates: &mut [f64]) {
         let SpeedSeries { factors, images } = series;
         for ((entries, factor), images) in self.terms.iter().zip(factors).zip(images) {
             for image in images.iter_mut() {
-                image[k] = V::splat(0.0);
+                image[k] = 0.0;
             }
             for entry in entries {
                 let image = &mut images[entry.row][k];
-                *image = state[entry.column].mul_add(V::splat(entry.value), *image);
+                *image = f64::mul_add(state[entry.column], entry.value, *image);
             }
             for (rate, image) in rates[self.offset..].iter_mut().zip(images) {
-                *rate = *rate + partial_product(factor, image, k, 0, k);
+                *rate += partial_product(factor, image, k, 0, k);
             }
         }
     }

@@ -6,7 +6,6 @@
 //! while the others carry the rest.
 
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
-use quell_numerics::lane::Lane;
 use quell_numerics::matrix::Matrix;
 
 use super::contact_equation::ContactEquation;
@@ -14,7 +13,7 @@ use super::contact_series::ContactSeries;
 use super::equations::MotionEquations;
 use super::few::Few;
 use super::phase::ContactNow;
-use super::rows::{StateRow, StateStorage};
+use super::rows::StateStorage;
 
 /// A row is dependent on others if they carry all but this share of it: the rounding of a Schur complement of rows whose condition
 /// is up to 10⁵. Rows that differ by less share their forces by least norm, and the motion changes by as little.
@@ -35,32 +34,29 @@ pub(super) struct StuckForces {
     pub(super) is_dependent: bool,
 }
 
-/// Forces of the sticking contacts that are not saturated, in every lane.
+/// Forces of the sticking contacts that are not saturated.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HoldingForces<'a, V = f64> {
-    /// The contacts that are free in any lane, in order.
+pub(super) struct HoldingForces<'a> {
+    /// The contacts that are free, in order.
     pub(super) free: &'a [usize],
-    /// Those with independent rows in any lane.
+    /// Those with independent rows.
     pub(super) independent: &'a [usize],
     /// T of the free contacts per w of the independent ones, row by row.
-    pub(super) gain: &'a [V],
+    pub(super) gain: &'a [f64],
     /// σ of the free contacts.
-    pub(super) tilts: &'a [V],
-    /// Positive in the lanes where each of these contacts is one of them; not read of one lane.
-    pub(super) is_free: &'a [V],
-    pub(super) is_independent: &'a [V],
+    pub(super) tilts: &'a [f64],
 }
 
-impl<V: Lane> HoldingForces<'_, V> {
+impl HoldingForces<'_> {
     /// Adds the friction of order k that holds the contacts to the rates.
     #[inline(always)]
-    pub(super) fn hold<S: StateStorage<V>>(
+    pub(super) fn hold<S: StateStorage>(
         &self,
         storage: S,
-        equations: &[ContactEquation<S::Row, V>],
+        equations: &[ContactEquation],
         k: usize,
-        contacts: &mut [ContactSeries<V>],
-        rates: &mut [V],
+        contacts: &mut [ContactSeries],
+        rates: &mut [f64],
     ) {
         // The conditions of all are read before any force is added: force by force into the series of this order.
         for &index in self.independent {
@@ -69,29 +65,19 @@ impl<V: Lane> HoldingForces<'_, V> {
         }
         let count = self.independent.len();
         for (place, &held) in self.free.iter().enumerate() {
-            let mut force = V::splat(0.0);
+            let mut force = 0.0;
             let gains = &self.gain[place * count..(place + 1) * count];
-            for (other, (&index, gain)) in self.independent.iter().zip(gains).enumerate() {
-                let sum = gain.mul_add(contacts[index].lost, force);
-                force = if const { V::LANES == 1 } {
-                    sum
-                } else {
-                    self.is_independent[other].where_positive(sum, force)
-                };
+            for (&index, gain) in self.independent.iter().zip(gains) {
+                force = f64::mul_add(*gain, contacts[index].lost, force);
             }
-            contacts[held].friction[k] = if const { V::LANES == 1 } {
-                force
-            } else {
-                self.is_free[place].where_positive(force, contacts[held].friction[k])
-            };
+            contacts[held].friction[k] = force;
         }
-        for (place, (&index, tilt)) in self.free.iter().zip(self.tilts).enumerate() {
+        for (&index, tilt) in self.free.iter().zip(self.tilts) {
             let contact = &equations[index];
             let force = contacts[index].friction[k];
-            let mask = if const { V::LANES == 1 } { V::splat(1.0) } else { self.is_free[place] };
-            storage.add_where(mask, &contact.along, force, rates);
+            storage.add(&contact.along, force, rates);
             if !contact.slope.is_empty() {
-                storage.add_where(mask, &contact.across, *tilt * force, rates);
+                storage.add(&contact.across, tilt * force, rates);
             }
         }
     }
@@ -222,6 +208,14 @@ impl StuckForces {
         if sticking.is_empty() {
             return Some(Self::default());
         }
+        let apart = |c: &usize, d: &usize| c == d || equations.coupling[(*c, *d)] == 0.0;
+        if !equations.follows
+            && sticking
+                .iter()
+                .all(|c| now[*c].saturated == 0 && sticking.iter().all(|d| apart(c, d)))
+        {
+            return Self::apart(equations, sticking);
+        }
         let all = coupling(equations, &sticking, tilts);
         let places: Few<usize> = (0..sticking.len()).collect();
         let is_dependent = independent(&all, &places).len() < sticking.len();
@@ -242,6 +236,21 @@ impl StuckForces {
         })
     }
 
+    /// For contacts of which none moves another at once.
+    fn apart(equations: &MotionEquations, sticking: Few<usize>) -> Option<Self> {
+        let size = sticking.len();
+        let mut gain = Few::from_elem(0.0, size * size);
+        for (place, &contact) in sticking.iter().enumerate() {
+            let own = 1.0 / equations.coupling[(contact, contact)];
+            if !own.is_finite() {
+                return None;
+            }
+            gain[place * (size + 1)] = own;
+        }
+        let (tilts, independent) = (Few::from_elem(0.0, size), sticking.clone());
+        Some(Self { free: sticking, independent, gain, tilts, is_dependent: false })
+    }
+
     /// The forces of one run, for the equations of a step.
     #[inline(always)]
     pub(super) fn holding(&self) -> HoldingForces<'_> {
@@ -250,8 +259,6 @@ impl StuckForces {
             independent: &self.independent,
             gain: &self.gain,
             tilts: &self.tilts,
-            is_free: &[],
-            is_independent: &[],
         }
     }
 

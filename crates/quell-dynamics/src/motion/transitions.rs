@@ -10,7 +10,7 @@ use super::few::Few;
 use super::guards::GuardReached;
 use super::observer::{MotionEvent, MotionMoment, Trigger};
 use super::phase::{ContactNow, ContactPhase};
-use super::selection::Moment;
+use super::selection::{LoneMoment, Moment};
 use super::stopped::{MotionStopped, StopReason};
 use super::stuck::{coupling, independent};
 use crate::simulation::EventKind;
@@ -193,6 +193,9 @@ impl MotionRun<'_> {
             }
             return Ok(());
         }
+        if self.are_apart(&members) {
+            return self.decide_each(&members, reached);
+        }
         if self.equations.follows {
             self.check_unique(&members, &self.tilts())?;
         }
@@ -215,6 +218,46 @@ impl MotionRun<'_> {
         Ok(())
     }
 
+    /// Whether no contact of a set moves another of them at once.
+    pub(super) fn are_apart(&self, members: &[usize]) -> bool {
+        let coupling = &self.equations.coupling;
+        let apart = |c: &usize| members.iter().all(|d| c == d || coupling[(*c, *d)] == 0.0);
+        !self.equations.follows && members.iter().all(apart)
+    }
+
+    /// Each contact of such a set decides what it does.
+    fn decide_each(&mut self, members: &[usize], reached: &[(usize, i8)]) -> MotionProgress {
+        let rates = with_fused_multiply_add(RatesWithout(self, members));
+        for &contact in members {
+            let equation = &self.equations.contacts[contact];
+            let pressed = self.load(contact).max(0.0) * self.factor(contact);
+            let moment = LoneMoment {
+                coupling: self.equations.coupling[(contact, contact)],
+                acceleration: self.acceleration(contact, &rates),
+                holding: equation.static_coefficient * pressed,
+                sliding: equation.sliding_coefficient * pressed,
+                reached: reached.iter().find(|(at, _)| *at == contact).map_or(0, |(_, side)| *side),
+            };
+            let Some((direction, is_smooth)) = moment.decide() else {
+                let contacts = members.iter().map(|c| self.name(*c)).collect();
+                return Err(self.stopped(StopReason::NotUnique { contacts }));
+            };
+            let load_zeros = self.now[contact].load_zeros;
+            let phase =
+                if direction == 0 { ContactPhase::Stick } else { ContactPhase::Slip(direction) };
+            let slip_zeros = if direction == 0 { 0 } else { 1 + usize::from(is_smooth) };
+            self.now[contact] = ContactNow { slip_zeros, load_zeros, ..ContactNow::of(phase) };
+        }
+        Ok(())
+    }
+
+    /// γ̇ of a contact, from the rates of the state.
+    fn acceleration(&self, contact: usize, rates: &[f64]) -> f64 {
+        let surface = &self.forcings.contacts[contact].surface;
+        let surface = if surface.is_constant() { 0.0 } else { surface.series(self.clock)[1] };
+        surface - self.equations.contacts[contact].tangent.dot(rates)
+    }
+
     /// The conditions of a decision of some contacts.
     pub(super) fn moment_of(&self, members: &[usize], reached: &[(usize, i8)]) -> Moment {
         let rates = with_fused_multiply_add(RatesWithout(self, members));
@@ -222,11 +265,7 @@ impl MotionRun<'_> {
         let matrix = coupling(self.equations, members, &tilts);
         let places: Few<usize> = (0..members.len()).collect();
         let is_dependent = independent(&matrix, &places).len() < members.len();
-        let accelerations = members.iter().map(|&c| {
-            let surface = &self.forcings.contacts[c].surface;
-            let surface = if surface.is_constant() { 0.0 } else { surface.series(self.clock)[1] };
-            surface - self.equations.contacts[c].tangent.dot(&rates)
-        });
+        let accelerations = members.iter().map(|&c| self.acceleration(c, &rates));
         let pressed: Few<f64> =
             members.iter().map(|&c| self.load(c).max(0.0) * self.factor(c)).collect();
         let level = |coefficient: fn(&ContactEquation) -> f64| {

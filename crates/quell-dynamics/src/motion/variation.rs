@@ -37,7 +37,6 @@ use super::observer::{
 };
 use super::own_state::{OwnState, OwnStateKind, law_of};
 use super::phase::{ContactNow, ContactPhase, OwnNow};
-use super::rows::StateRow;
 use super::stopped::Immobile;
 use super::stuck::{StuckForces, independent};
 use crate::simulation::ORDER;

@@ -187,6 +187,15 @@ impl Forcing {
 
     /// The sum of profiles, set to the moment `clock`.
     pub(crate) fn of_profiles(profiles: &[&Profile], clock: Clock) -> Self {
+        if profiles.iter().all(|profile| profile.waves().is_empty() && profile.knots().is_none()) {
+            return Self {
+                components: Vec::new(),
+                mean: profiles.iter().map(|profile| profile.mean()).sum(),
+                courses: Vec::new(),
+                amplitude: 0.0,
+                next_break: f64::INFINITY,
+            };
+        }
         let waves = profiles.iter().flat_map(|profile| profile.waves());
         let dithers: Vec<Dither> = waves
             .map(|wave| Dither {
