@@ -21,6 +21,7 @@ mod python;
 mod ratchet;
 mod source;
 mod test;
+mod test_run;
 
 use ratchet::RatchetMode;
 

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::programs::{cargo, command};
+use crate::test_run::TestProgram;
 
 /// The crate of the wheel.
 const CRATE: &str = "crates/quell-python";
@@ -28,6 +29,14 @@ const PROBE: &str = "import sys, venv; assert sys.version_info >= (3, 11); print
 /// # Errors
 /// The command that failed, with its exit status.
 pub(crate) fn run(root: &Path) -> Result<(), String> {
+    command(&mut tests(root)?.command)
+}
+
+/// Builds the wheel, installs it, and returns the program of the tests.
+///
+/// # Errors
+/// As [`run`], without the tests.
+pub(crate) fn tests(root: &Path) -> Result<TestProgram, String> {
     let root = root.canonicalize().map_err(|why| format!("{}: {why}", root.display()))?;
     let place = root.join("target").join("python");
     let python = environment(&root, &place)?;
@@ -43,17 +52,13 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     let wheel = wheel(&root, &wheels, "dev", &python)?;
     let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
     command(Command::new(&python).args(install).arg(&wheel))?;
-    let tests = Command::new(&python)
+    let mut pytest = Command::new(&python);
+    pytest
         .args(["-m", "pytest"])
         .current_dir(root.join(CRATE))
         .env("QUELL_CLI", program)
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .status();
-    match tests {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(format!("pytest: {status}")),
-        Err(why) => Err(format!("pytest: {why}")),
-    }
+        .env("PYTHONDONTWRITEBYTECODE", "1");
+    Ok(TestProgram { name: "pytest".to_owned(), command: pytest })
 }
 
 /// The interpreter of the environment, with all packages that the tests need.

@@ -1,14 +1,14 @@
 //! `cargo xtask test`: everything that must hold before a change is merged.
 //!
-//! The steps run in order and stop at the first failure, which is reported with its step. The tests come last,
-//! those of Python after those of Rust, and nothing is printed after them, so that a successful run
-//! ends with their summary. All steps use one profile (dev, optimised in the root manifest):
+//! The steps run in order and stop at the first failure, which is reported with its step. The tests come last, all programs of Rust
+//! and pytest side by side (`test_run.rs`); what pytest says is printed after everything else, so that a successful run ends with its
+//! summary. All steps use one profile (dev, optimised in the root manifest):
 //! nothing is compiled twice because of a profile.
 
 use std::path::Path;
 
 use crate::ratchet::RatchetMode;
-use crate::{cycles, english, layers, licences, names, programs, python};
+use crate::{cycles, english, layers, licences, names, programs, python, test_run};
 
 /// One step.
 struct TestStep {
@@ -24,6 +24,8 @@ struct TestStep {
 enum Action {
     /// `cargo` with arguments.
     Cargo(&'static [&'static str]),
+    /// Every test.
+    Tests,
     /// The tests of Rust without the slow ones.
     Quick,
     /// Another task of this program, by its name.
@@ -83,21 +85,24 @@ const STEPS: &[TestStep] = &[
         advice: "fix the doc comments that rustdoc reports",
     },
     TestStep {
-        name: "tests",
-        action: Action::Cargo(&["test", "--workspace"]),
-        advice: "see the failing test above",
+        name: "examples in the documentation",
+        action: Action::Cargo(&["test", "--workspace", "--doc"]),
+        advice: "see the failing example above",
     },
     TestStep {
-        name: "python",
-        action: Action::Task("python", python::run),
-        advice: "see the failing test above; the environment is in target/python",
+        name: "tests",
+        action: Action::Tests,
+        advice: "see the failing tests above; the environment of Python is in target/python",
     },
 ];
 
 /// Tests that take half a minute or more, which `--quick` omits.
 const SLOW: &[&str] = &[
     "a_million_random_steps_close_the_balance_of_work",
+    "data_have_the_documented_columns",
     "every_entry_is_made",
+    "statements_are_counted_not_claims",
+    "verdicts_are_those_on_record",
     "runs_from_rest_have_both_thresholds_in_any_window",
     "studies_commands_answers_and_pictures_are_true",
     "the_reader_of_stores_detects_damage",
@@ -128,11 +133,13 @@ const QUICK: &[TestStep] = &[
 pub(crate) fn run(root: &Path, quick: bool) -> Result<(), String> {
     let steps = if quick { QUICK } else { STEPS };
     until_failure(steps, |action| match action {
+        Action::Tests => {
+            let programs = test_run::built(root, &[])?;
+            test_run::run(programs, Some(python::tests(root)?))
+        }
         Action::Quick => {
-            let skipped = SLOW.iter().flat_map(|name| ["--skip", name]);
-            let words: Vec<&str> =
-                ["test", "--workspace", "--"].into_iter().chain(skipped).collect();
-            cargo(root, &words)
+            let skipped: Vec<&str> = SLOW.iter().flat_map(|name| ["--skip", name]).collect();
+            test_run::run(test_run::built(root, &skipped)?, None)
         }
         Action::Cargo(arguments) => cargo(root, arguments),
         Action::Task(_, run) => run(root),
@@ -147,6 +154,7 @@ fn until_failure(
     for (index, step) in steps.iter().enumerate() {
         let command = match step.action {
             Action::Cargo(arguments) => format!("cargo {}", arguments.join(" ")),
+            Action::Tests => "cargo test --workspace, with cargo xtask python".to_owned(),
             Action::Quick => "cargo test --workspace -- --skip …".to_owned(),
             Action::Task(name, _) => format!("cargo xtask {name}"),
         };
@@ -172,7 +180,7 @@ mod tests {
     fn tasks(steps: &[TestStep]) -> Vec<&'static str> {
         let task = |step: &TestStep| match step.action {
             Action::Task(name, _) => Some(name),
-            Action::Cargo(_) | Action::Quick => None,
+            Action::Cargo(_) | Action::Tests | Action::Quick => None,
         };
         steps.iter().filter_map(task).collect()
     }
@@ -184,20 +192,21 @@ mod tests {
         let done = until_failure(STEPS, |action| {
             run.push(match action {
                 Action::Cargo(arguments) => arguments[0],
+                Action::Tests => "tests",
                 Action::Quick => "quick",
                 Action::Task(name, _) => name,
             });
             Ok(())
         });
         assert_eq!((done, run.len()), (Ok(()), STEPS.len()));
-        assert_eq!(run[run.len() - 2..], ["test", "python"]);
+        assert_eq!(run[run.len() - 2..], ["test", "tests"]);
         assert!(!run[..run.len() - 2].contains(&"test"));
     }
 
     /// `--quick` leaves out what takes long, and no check of the sources.
     #[test]
     fn quick_has_every_check_that_is_quick() {
-        let slow = ["licences", "python"];
+        let slow = ["licences"];
         let expected: Vec<&str> =
             tasks(STEPS).into_iter().filter(|task| !slow.contains(task)).collect();
         assert_eq!(tasks(QUICK), expected);

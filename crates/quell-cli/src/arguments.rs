@@ -26,7 +26,7 @@ pub(crate) struct StudyArguments {
     /// Changes a value of the study, such as dither[1].amplitude=0.3; `quell schema` lists the keys
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Replaces the tolerance of [solver]
+    /// Replaces the tolerance of [solver], in a study of a belt
     #[arg(long, value_name = "ε", allow_hyphen_values = true)]
     tolerance: Option<String>,
     /// Takes drives, loads and amplitudes that vary in time at this moment

@@ -9,31 +9,22 @@ fn quell(arguments: &[&str]) -> Output {
 }
 
 #[test]
-fn figures_and_claims_are_written() {
+fn figures_are_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("figures");
     let out = out.to_str().expect("a path");
-    let done = quell(&["reproduce", "2.2", "claims", "--out", out, "--json"]);
+    let done = quell(&["reproduce", "2.2", "table-5.1", "--out", out, "--json"]);
     assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
     let object: Value = serde_json::from_slice(&done.stdout).expect("one JSON object");
     assert_eq!(object["ok"], true);
     assert_eq!(object["entries"][0]["name"], "2.2");
+    assert_eq!(object["entries"][1]["name"], "table-5.1");
     for entry in object["entries"].as_array().expect("entries") {
         for file in entry["files"].as_array().expect("files") {
             let path = file.as_str().expect("a path");
             assert!(std::fs::metadata(path).expect(path).len() > 1000, "{path}");
         }
     }
-    let claims = object["entries"][1]["claims"].as_array().expect("claims");
-    assert!(claims.len() > 60 && claims.iter().all(|claim| claim["verdict"].is_string()));
-    // Statements are counted, not claims.
-    let names: std::collections::BTreeSet<&str> =
-        claims.iter().filter_map(|claim| claim["statement_name"].as_str()).collect();
-    let summary = object["summary"].as_str().expect("a sentence");
-    let counted = claims.iter().filter(|claim| claim["verdict"] != "finding").count();
-    let counts =
-        format!("{} statements of the dissertation, measured by {counted} claims: ", names.len());
-    assert!(names.len() < claims.len() && summary.starts_with(&counts), "{summary}");
 }
 
 #[test]

@@ -29,8 +29,21 @@ pub enum Resolution {
     /// The resolution of the study files.
     #[default]
     Full,
-    /// At most a few points along each axis of a map. Claims are still measured in full.
-    Quick,
+    /// At most so many points along each axis of a map. Claims are still measured in full.
+    AtMost(usize),
+}
+
+impl Resolution {
+    /// That of `--quick`.
+    pub const QUICK: Self = Self::AtMost(12);
+
+    /// The largest number of points along an axis; `None` without a limit.
+    pub(super) fn most_points(self) -> Option<usize> {
+        match self {
+            Self::Full => None,
+            Self::AtMost(points) => Some(points),
+        }
+    }
 }
 
 /// Options of a reproduction.
@@ -45,9 +58,6 @@ pub struct ReproductionOptions {
     pub changes: Vec<Change>,
 }
 
-/// Largest number of points along an axis of a map at quick resolution.
-const QUICK_POINTS: usize = 12;
-
 impl CatalogueEntry {
     /// Computes the figure or table.
     ///
@@ -57,24 +67,13 @@ impl CatalogueEntry {
         (self.make)(&self.source())
     }
 
-    /// The same with at most `most_points` points along each axis of its sweeps.
-    ///
-    /// # Errors
-    /// As [`CatalogueEntry::product`].
-    pub fn coarse_product(&self, most_points: usize) -> Result<Product, Failure> {
-        (self.make)(&EntrySource { most_points: Some(most_points), ..self.source() })
-    }
-
     /// The product with these options, using the shared measurements of the run.
     pub(super) fn at(
         &self,
         options: &ReproductionOptions,
         shared: &SharedMeasurements,
     ) -> Result<Product, Failure> {
-        let most_points = match options.resolution {
-            Resolution::Full => None,
-            Resolution::Quick => Some(QUICK_POINTS),
-        };
+        let most_points = options.resolution.most_points();
         let source = self.source().with(&options.changes)?;
         (self.make)(&EntrySource { most_points, shared: shared.clone(), ..source })
     }

@@ -179,7 +179,7 @@ impl Reproduction {
             "directory": directory.display().to_string(),
             "report": self.report.display().to_string(),
             "table": self.table.display().to_string(),
-            "quick": options.resolution == Resolution::Quick,
+            "quick": options.resolution.most_points().is_some(),
             "changes": changes,
             "entries": entries,
             "summary": self.summary(),

@@ -1,12 +1,15 @@
 //! Every entry of `reproduce` is computed, its data have the documented columns, and its claims the verdicts on record.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use quell::{Change, Failure, Study};
 use quell_reproduce::claims::{self, Claim, ClaimVerdict, LEDGER};
 use quell_reproduce::{
-    CatalogueEntry, Cell, ENTRIES, Reproduction, ReproductionOptions, Resolution, find, run,
+    CatalogueEntry, Cell, ENTRIES, Product, Reproduction, ReproductionOptions, Resolution, find,
+    run,
 };
+use serde_json::Value;
 
 /// Points along each axis of a figure where its numbers are not asked for.
 const POINTS: usize = 6;
@@ -15,10 +18,37 @@ fn entry(name: &str) -> &'static CatalogueEntry {
     ENTRIES.iter().find(|entry| entry.name == name).expect(name)
 }
 
+/// Every entry with few points and all claims, made once for all tests, and what is said of it as JSON.
+fn everything() -> &'static (Reproduction, Value) {
+    static MADE: OnceLock<(Reproduction, Value)> = OnceLock::new();
+    MADE.get_or_init(|| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let options =
+            ReproductionOptions { resolution: Resolution::AtMost(POINTS), ..Default::default() };
+        let made = run(ENTRIES, folder.path(), &options, |_| ()).expect("made");
+        for file in made.written.iter().flat_map(|done| &done.files) {
+            let size = std::fs::metadata(file).expect("a file").len();
+            assert!(size > 400, "{}: {size} bytes", file.display());
+        }
+        let json = made.json(folder.path(), &options);
+        (made, json)
+    })
+}
+
+/// The claims as they are measured.
+fn measured_claims() -> &'static [Claim] {
+    let written = &everything().0.written;
+    &written.iter().find(|done| done.entry.name == "claims").expect("claims").product.claims
+}
+
+/// An entry with few points.
+fn product(name: &str) -> &'static Product {
+    &everything().0.written.iter().find(|done| done.entry.name == name).expect(name).product
+}
+
 /// Names of the columns of each table of an entry.
 fn columns(name: &str) -> Vec<Vec<String>> {
-    let product = entry(name).coarse_product(POINTS).expect(name);
-    product
+    product(name)
         .tables
         .iter()
         .map(|table| table.columns.iter().map(|column| column.name.clone()).collect())
@@ -27,10 +57,9 @@ fn columns(name: &str) -> Vec<Vec<String>> {
 
 #[test]
 fn every_entry_is_made() {
-    // The claims are measured below, and the pictures of the book are compared with those of all points by its own test.
+    // The verdicts of claims are compared below, and the pictures of the book are compared with those of all points by its own test.
     for entry in ENTRIES.iter().filter(|entry| entry.name != "claims") {
-        let made = entry.coarse_product(POINTS);
-        let product = made.unwrap_or_else(|failure| panic!("{}: {failure}", entry.name));
+        let product = product(entry.name);
         assert!(!product.tables.is_empty(), "{} has data", entry.name);
         for table in &product.tables {
             assert!(table.rows.len() > 3, "{} has rows", entry.name);
@@ -143,7 +172,7 @@ fn spectra_of_figure_2_3_have_the_known_peaks() {
 /// Every claim has the verdict on record, and every verdict on record has its claim.
 #[test]
 fn verdicts_are_those_on_record() {
-    let claims = claims::measure().expect("measured");
+    let claims = measured_claims();
     let changed: Vec<String> = claims
         .iter()
         .filter(|claim| !claim.as_expected())
@@ -153,14 +182,14 @@ fn verdicts_are_those_on_record() {
     let measured: Vec<&str> = claims.iter().map(|claim| claim.name.as_str()).collect();
     let on_record: Vec<&str> = LEDGER.iter().map(|(name, _)| *name).collect();
     assert_eq!(measured, on_record, "one line of claims::LEDGER for each claim, in their order");
-    for claim in &claims {
+    for claim in claims {
         let holds =
             claim.verdict.holds() || matches!(claim.verdict, ClaimVerdict::FormulaWrong { .. });
         assert_eq!(holds, claim.why().is_empty(), "{} says why it does not hold", claim.name);
         assert_eq!(claim.tolerance.is_some(), !claim.printed.is_empty(), "{}", claim.name);
     }
     // Five slips are behind the wrong formulas, and what the dissertation does not state counts for nothing.
-    let found = claims::statements(&claims);
+    let found = claims::statements(claims);
     assert_eq!(claims::slips(&found).len(), 5);
     assert!(
         found.iter().all(|one| one.claims.iter().all(|claim| claim.verdict.name() != "finding"))
@@ -194,14 +223,33 @@ fn verdicts_are_those_on_record() {
     let book = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/book/src/reproduction.md");
     let book = std::fs::read_to_string(book).expect("the book");
     let words: Vec<&str> = book.split_whitespace().filter(|word| *word != ">").collect();
-    let summary = claims::summary(&claims::statements(&claims));
+    let summary = claims::summary(&claims::statements(claims));
     assert!(words.join(" ").contains(&summary), "the book does not say: {summary}");
-    paper_quotes(&claims, &summary);
+    paper_quotes(claims, &summary);
     let mut names: Vec<&str> = claims.iter().map(|claim| claim.name.as_str()).collect();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), claims.len(), "names are unique");
-    assert!(claims::markdown(&claims).contains("| (3.38a), (B.10a) |"));
+    assert!(claims::markdown(claims).contains("| (3.38a), (B.10a) |"));
+}
+
+/// The claims in JSON; statements are counted, not claims.
+#[test]
+fn statements_are_counted_not_claims() {
+    let (made, json) = everything();
+    assert_eq!((&json["ok"], &json["quick"]), (&Value::Bool(true), &Value::Bool(true)));
+    let entries = json["entries"].as_array().expect("entries");
+    assert_eq!(entries.len(), made.written.len());
+    let claims = entries.iter().find(|entry| entry["name"] == "claims").expect("claims");
+    let claims = claims["claims"].as_array().expect("claims");
+    assert!(claims.len() > 60 && claims.iter().all(|claim| claim["verdict"].is_string()));
+    let names: std::collections::BTreeSet<&str> =
+        claims.iter().filter_map(|claim| claim["statement_name"].as_str()).collect();
+    let summary = json["summary"].as_str().expect("a sentence");
+    let counted = claims.iter().filter(|claim| claim["verdict"] != "finding").count();
+    let counts =
+        format!("{} statements of the dissertation, measured by {counted} claims: ", names.len());
+    assert!(names.len() < claims.len() && summary.starts_with(&counts), "{summary}");
 }
 
 /// The paper quotes the counts, rows of the ledger, and the comparison with other programs of the README.
@@ -338,7 +386,7 @@ fn own(name: &str, changes: &[&str]) -> Result<Reproduction, Failure> {
     let changes =
         changes.iter().map(|text| Change::parse(text, "--set").expect("a change")).collect();
     let options =
-        ReproductionOptions { resolution: Resolution::Quick, changes, ..Default::default() };
+        ReproductionOptions { resolution: Resolution::QUICK, changes, ..Default::default() };
     run(&find(&[name.to_owned()]).expect("known"), folder.path(), &options, |_| ())
 }
 

@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
 /// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let entries = find(&arguments.names)?;
-    let resolution = if arguments.quick { Resolution::Quick } else { Resolution::Full };
+    let resolution = if arguments.quick { Resolution::QUICK } else { Resolution::Full };
     let width = arguments.width.as_deref().map(|text| PictureWidth::parse(text, "--width"));
     let page = PicturePage {
         width: width.transpose()?,

@@ -22,7 +22,7 @@ pub(crate) fn reproduce(
     let object = call::run(py, move || {
         let entries = find(&names)?;
         let options = ReproductionOptions {
-            resolution: if quick { Resolution::Quick } else { Resolution::Full },
+            resolution: if quick { Resolution::QUICK } else { Resolution::Full },
             page: answer::page(width.as_deref(), caption, title)?,
             changes: set.iter().map(change).collect(),
         };

@@ -98,16 +98,11 @@ const SECTIONS: &[ClaimMeasurement] = &[
     qualitative::always_quenched,
 ];
 
-/// Measures every claim, in parallel on all cores. The claims are in the order of the dissertation.
+/// Measures every claim, in parallel on all cores, sharing measurements with the figures. The claims are in the order of the dissertation.
 ///
 /// # Errors
 /// [`Failure`] if a run stops or an average has no value.
-pub fn measure() -> Result<Vec<Claim>, Failure> {
-    measure_with(&SharedMeasurements::default())
-}
-
-/// The same, sharing measurements with the figures.
-fn measure_with(shared: &SharedMeasurements) -> Result<Vec<Claim>, Failure> {
+fn measure(shared: &SharedMeasurements) -> Result<Vec<Claim>, Failure> {
     let sections: Result<Vec<Vec<Claim>>, Failure> = SECTIONS
         .in_parallel(|section| {
             let mut sheet = ClaimSheet { shared: shared.clone(), ..ClaimSheet::default() };
@@ -119,7 +114,7 @@ fn measure_with(shared: &SharedMeasurements) -> Result<Vec<Claim>, Failure> {
 
 /// The table as a product.
 pub(super) fn product(source: &EntrySource) -> Result<Product, Failure> {
-    let claims = measure_with(&source.shared)?;
+    let claims = measure(&source.shared)?;
     let columns = ["claim", "where", "statement", "printed", "measured", "verdict", "note"]
         .map(|name| (name, "1"));
     let mut table = DataTable::new("", &columns);

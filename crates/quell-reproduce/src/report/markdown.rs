@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::super::{ReproductionOptions, Resolution, WrittenEntry};
+use super::super::{ReproductionOptions, WrittenEntry};
 use super::claims;
 use crate::claims::{statements, summary};
 
@@ -10,7 +10,7 @@ use crate::claims::{statements, summary};
 pub(crate) fn markdown(written: &[WrittenEntry], options: &ReproductionOptions) -> String {
     let all = claims::all(written);
     let mut text = format!("# {}\n\n", super::title(options));
-    if options.resolution == Resolution::Quick {
+    if options.resolution.most_points().is_some() {
         text += "Quick: maps have coarser grids than their study files specify.\n\n";
     }
     if !all.is_empty() {

@@ -54,7 +54,7 @@ pub(super) fn write(
         "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>{}</h1><p \
          class=\"source\">{}</p><p class=\"lead\">{lead} {}</p></header>",
         env!("CARGO_PKG_VERSION"),
-        if resolution == Resolution::Quick { " --quick" } else { "" },
+        if resolution.most_points().is_some() { " --quick" } else { "" },
         title,
         escape(&MICHAUX_2005.reference()),
         extent(written, resolution),
@@ -74,7 +74,7 @@ fn extent(written: &[WrittenEntry], resolution: Resolution) -> String {
     let work: Duration = written.iter().map(|done| done.elapsed).sum();
     let quick = match resolution {
         Resolution::Full => "",
-        Resolution::Quick => {
+        Resolution::AtMost(_) => {
             " <strong>This is the quick report: maps have coarser grids than their study files specify; claims are measured in \
              full.</strong>"
         }
