@@ -323,6 +323,13 @@ fn normal_dither_acts_through_the_stiffness_of_the_contact() {
             let allowed = errors[0]["allowed"].as_str().expect("text");
             assert!(allowed.contains(words), "{name}: {allowed}");
         }
+        if name == "belt.toml" {
+            // A stiffness that is wrong is one fault, not two.
+            place.write(name, format!("{}{stack}", volts(text, "normal_stiffness_n_per_m = 0")));
+            let errors = place.refused(&["check", name]);
+            assert_eq!(errors.len(), 1, "{errors:?}");
+            assert_eq!(errors[0]["key"], "belt.normal_stiffness_n_per_m");
+        }
         // Without normal dither nothing presses through the contact.
         let tangential = text.replace(
             "normal_force_n = 1500",

@@ -11,8 +11,7 @@ use quell::run::bifurcation::SweepRequest;
 use quell::run::moment::at_time;
 use quell::run::response::ResponseTexts;
 use quell::run::varied::Range;
-use quell::study::vocabulary::DocumentKind;
-use quell::study::{Files, Kind, key_at};
+use quell::study::{Files, key_at};
 use quell::{Change, Complaints, Failure, RealInterval, Study};
 
 use crate::answer::NativeAnswer;
@@ -198,11 +197,7 @@ impl NativeStudy {
 
     /// Unit of the number at a path, in words; of a path that names no key none.
     fn unit(&self, path: &str) -> Option<&'static str> {
-        let kind = match self.inner.kind() {
-            Kind::Belt(_) => DocumentKind::Belt,
-            Kind::Disc(_) => DocumentKind::Disc,
-            Kind::System(_) => DocumentKind::System,
-        };
+        let kind = self.inner.document_kind();
         let address = key_at(path, kind).ok()?;
         Some(address.key.unit_in_words(kind, self.inner.file_units()))
     }

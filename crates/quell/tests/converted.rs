@@ -18,6 +18,17 @@ fn shipped() -> Vec<(PathBuf, Study)> {
     read.filter(|(_, study)| !matches!(study.kind(), Kind::System(_))).collect()
 }
 
+/// A law holds, or is proven, up to the same slip speed.
+fn same_range(one: &Contact, other: &Contact, path: &Path) {
+    let upper = |contact: &Contact| contact.friction.range().map(|range| range.upper);
+    let (one, other) = (upper(one), upper(other));
+    let close = match (one, other) {
+        (Some(one), Some(other)) => (one - other).abs() <= 1e-14 * one,
+        _ => one == other,
+    };
+    assert!(close, "{}: {one:?} {other:?}", path.display());
+}
+
 #[test]
 fn every_shipped_belt_has_the_same_system() {
     let mut count = 0;
@@ -55,6 +66,7 @@ fn every_shipped_belt_has_the_same_system() {
             let (a, b) = (a.friction.coefficient(slip), b.friction.coefficient(slip));
             assert!((a - b).abs() <= 1e-14 * a.abs(), "{}: {a} {b}", path.display());
         }
+        same_range(a, b, path);
         count += 1;
     }
     assert!(count > 30);
@@ -80,6 +92,12 @@ fn discs_have_the_exponents_of_their_systems() {
             .reference_hz()
             .filter(|_| disc.scales(0).is_some_and(|scales| scales.plate_mass_kg.is_some()));
         let rate = per_second.map_or(1.0, |hertz| TAU * hertz);
+        if rate != 1.0 {
+            let contacts =
+                [study, &converted.study].map(|study| study.system().system().contacts.clone());
+            let [own, other] = &contacts;
+            own.iter().zip(other).for_each(|(own, other)| same_range(own, other, path));
+        }
         let (own, other) = (still(study) * rate, still(&converted.study));
         assert!(
             (own - other).abs() <= 1e-11 * rate + 1e-9 * own.abs(),

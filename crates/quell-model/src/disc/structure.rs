@@ -115,14 +115,17 @@ impl Disc {
         if self.law().is_none() {
             own.contacts.iter_mut().for_each(|contact| given_force(contact, self.speed()));
         }
-        Some(own.in_units(&unit).and_then(|mut system| {
-            for contact in &mut system.contacts {
-                let slip = contact.surface_velocity.bounds();
-                let slip = slip.lower.abs().max(slip.upper.abs());
-                contact.friction =
-                    contact.friction.placed(&Surroundings { normal_load: slip, slip })?;
+        Some(own.in_units(&unit).and_then(|system| {
+            let has_law = self.law().is_some();
+            let mut system = if has_law { system.with_loads_modulated() } else { system };
+            for number in 0..system.contacts.len() {
+                // A law without a velocity of its own is counted in that of the disc.
+                let normal_load = system.contacts[number].surface_velocity.bounds().magnitude();
+                let around = Surroundings { normal_load, ..system.surroundings(number) };
+                let friction = system.contacts[number].friction.placed(&around)?;
+                system.contacts[number].friction = friction;
             }
-            Ok(if self.law().is_some() { system.with_loads_modulated() } else { system })
+            Ok(system)
         }))
     }
 

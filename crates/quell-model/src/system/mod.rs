@@ -18,6 +18,7 @@ mod input;
 mod layout;
 mod mass;
 mod structure;
+mod surroundings;
 
 pub use contact::Contact;
 pub use input::{Input, InputTarget};

@@ -480,6 +480,11 @@ impl<K> StudyOf<K> {
         &self.source.changes
     }
 
+    /// The kind of the document in which its numbers are declared, also of the system of a belt or a disc.
+    pub fn document_kind(&self) -> DocumentKind {
+        DocumentKind::of(&self.source.document)
+    }
+
     /// The text of the file as it was read, without changes.
     pub fn text(&self) -> &str {
         &self.source.text

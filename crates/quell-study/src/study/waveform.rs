@@ -13,6 +13,9 @@ use serde_json::Value as Json;
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, WAVE_KEYS, join};
 
+/// Most periods of the carrier in a part of a burst: more are a carrier without pauses, or a pause, to any run.
+const MOST_CYCLES: f64 = 1e6;
+
 /// Lines of noise by default.
 const LINES: f64 = 64.0;
 
@@ -218,9 +221,10 @@ impl<'a> WavePlace<'a> {
         let carrier =
             reader.needed_choice(self.table, self.prefix, self.header, "carrier", Choice::Carrier);
         let count = |reader: &mut Reader, name: &str| {
-            let allowed = "a whole number of periods of the carrier";
-            let node = self.needed(reader, name, allowed)?;
-            self.whole(reader, name, node, (1e6, allowed))
+            let allowed =
+                format!("a whole number of periods of the carrier, from 0 to {MOST_CYCLES}");
+            let node = self.needed(reader, name, &allowed)?;
+            self.whole(reader, name, node, (MOST_CYCLES, &allowed))
         };
         let (on, off) = (count(reader, "on"), count(reader, "off"));
         let small = |count: Option<u64>| count.and_then(|count| u32::try_from(count).ok());

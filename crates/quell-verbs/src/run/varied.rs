@@ -2,7 +2,7 @@
 
 use crate::study::vocabulary::size::SignalMeasure;
 use crate::study::vocabulary::{DocumentKind, Role, join};
-use crate::study::{Kind, Study, SystemStudy, key_at, with_unit};
+use crate::study::{Study, SystemStudy, key_at, with_unit};
 
 /// What a varied number must be.
 pub(super) const OF_THE_EQUATIONS: &str = "a number of the equations, such as one of a contact, a friction law or a dither; this one changes none of them";
@@ -23,19 +23,10 @@ pub struct Range {
     pub points: usize,
 }
 
-/// The kind of the document in which the numbers of a system are declared.
-pub(super) fn kind_of_document(study: &SystemStudy) -> DocumentKind {
-    match study.declared().kind() {
-        Kind::Belt(_) => DocumentKind::Belt,
-        Kind::Disc(_) => DocumentKind::Disc,
-        Kind::System(_) => DocumentKind::System,
-    }
-}
-
 /// The number of the equations that a path means which names none itself, such as the peak amplitude for a root mean square.
 pub(super) fn number_meant(study: &SystemStudy, path: &str) -> Option<String> {
     let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
-    let meant = match key_at(path, kind_of_document(study)) {
+    let meant = match key_at(path, study.document_kind()) {
         Ok(address) => address.key.parameter().map(|parameter| join(table, parameter.key())),
         Err(nearest) => nearest,
     };

@@ -183,7 +183,7 @@ fn build(
         (number(table.damping_ratio), number(table.normal_load), number(table.belt_velocity));
     // That a law with a state has none is reported with the key.
     let stiffness = table.tangential_stiffness.filter(|_| law.bristles().is_none());
-    let BeltTable { drive, load: loads, normal_stiffness, courses_are_right, .. } = table;
+    let BeltTable { drive, load: loads, normal_stiffness, others_are_right, .. } = table;
     let whole = Belt::new(damping, load, velocity, law, dithers);
     let driven = whole.and_then(|belt| match drive {
         Some(drive) => belt.driven(drive.profile(velocity)),
@@ -195,7 +195,7 @@ fn build(
     });
     let sprung = loaded.and_then(|belt| belt.with_normal_stiffness(normal_stiffness));
     match sprung.and_then(|belt| belt.with_tangential_stiffness(stiffness)) {
-        Ok(belt) => (known && courses_are_right).then_some(belt),
+        Ok(belt) => (known && others_are_right).then_some(belt),
         Err(invalid) => {
             // With units the normal load is reported in newtons.
             let newtons =

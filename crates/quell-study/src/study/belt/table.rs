@@ -31,8 +31,8 @@ pub(super) struct BeltTable {
     /// Velocity and load over time, where they are given.
     pub(super) drive: Option<Course>,
     pub(super) load: Option<Course>,
-    /// Whether those tables are right.
-    pub(super) courses_are_right: bool,
+    /// Whether drive, load and the stiffnesses are right.
+    pub(super) others_are_right: bool,
 }
 
 /// Reads `[belt]`.
@@ -83,18 +83,14 @@ fn numbers(reader: &mut Reader, (node, table): (&Node, &Table), in_newtons: bool
         Found::Value(load) => Some(load),
         Found::Wrong => None,
     };
-    let [tangential_stiffness, normal_stiffness] =
-        [TANGENTIAL_STIFFNESS, NORMAL_STIFFNESS].map(|stiffness| {
-            match reader.optional(table, "belt", stiffness) {
-                Found::Value(stiffness) => Some(stiffness),
-                Found::Absent | Found::Wrong => None,
-            }
-        });
+    let springs = [TANGENTIAL_STIFFNESS, NORMAL_STIFFNESS]
+        .map(|stiffness| reader.optional(table, "belt", stiffness).if_given());
     let initial = match table.get("initial") {
         Some(node) => initial(reader, node),
         None => Some(SystemStart::Rest),
     };
-    let courses_are_right = drive.is_ok() && load.is_ok();
+    let others_are_right = drive.is_ok() && load.is_ok() && !springs.contains(&None);
+    let [tangential_stiffness, normal_stiffness] = springs.map(Option::flatten);
     let (drive, load) = (drive.unwrap_or_default(), load.unwrap_or_default());
     BeltTable {
         damping_ratio,
@@ -105,7 +101,7 @@ fn numbers(reader: &mut Reader, (node, table): (&Node, &Table), in_newtons: bool
         initial,
         drive,
         load,
-        courses_are_right,
+        others_are_right,
     }
 }
 

@@ -11,7 +11,7 @@ use quell_model::parameter::system::{
     CONTACT_TANGENTIAL_STIFFNESS,
 };
 use quell_model::profile::Profile;
-use quell_model::{Contact, Friction, LawKind};
+use quell_model::{Contact, Friction, LawKind, System};
 use quell_numerics::interval::RealInterval;
 
 use super::names::{MOST_COORDINATES, NAME, is_plain_name};
@@ -119,7 +119,7 @@ pub(super) fn read(
     if let Some(shared) = context.shared
         && tables.iter().all(|(.., table)| table.has("friction"))
     {
-        let allowed = "omitted: every contact has a law of its own, in [contact.friction]";
+        let allowed = "left out: every contact has a law of its own, in [contact.friction]";
         let complaint =
             Complaint::new(Fault::Conflict, "friction", shared.origin, Json::Null, allowed);
         reader.complain(complaint);
@@ -216,7 +216,8 @@ fn one(
     let mut number = |parameter| reader.optional(table, prefix, parameter).if_given();
     let (stiffness, damping) = (number(CONTACT_NORMAL_STIFFNESS), number(CONTACT_NORMAL_DAMPING));
     let spring = number(CONTACT_TANGENTIAL_STIFFNESS);
-    if !modulated {
+    // Of a number that is wrong nothing more is said.
+    if !modulated && stiffness.is_some() && damping.is_some() {
         without_normal(reader, table, prefix, &["normal_stiffness", "normal_damping"]);
     }
     let known = load.as_ref().and_then(Option::as_ref).map(|load| load.value(0.0));
@@ -228,11 +229,12 @@ fn one(
     // Negative friction is friction of a surface that moves in the other direction; it exists only without a tangent,
     // where the slip velocity is that of the surface.
     let velocity = if reversed { velocity.reversed() } else { velocity };
-    let RealInterval { lower: least, upper: most } = velocity.bounds();
-    let fastest = least.abs().max(most.abs());
+    let fastest = velocity.bounds().magnitude();
     let load = load?.or(own_load.map(Profile::constant))?;
     let steady = load.value(0.0);
-    let law = placed(reader, table, prefix, node, law, Some(steady), fastest)?;
+    // Without dither; with it the equations as a whole decide.
+    let around = Surroundings { normal_load: steady, slip: fastest };
+    let law = placed(reader, (table, node, prefix), law, &around)?;
     let tangential_stiffness = spring?;
     let name = "tangential_stiffness";
     let given = table.iter().find(|(known, _)| known.starts_with(name));
@@ -385,21 +387,50 @@ fn law(
     friction::read_table(reader, node, place)
 }
 
+/// The warning about a contact whose friction acts on nothing.
+pub(super) fn without_rows(contacts: &[Contact]) -> impl Iterator<Item = String> {
+    let idle = contacts.iter().filter(|contact| {
+        contact.tangent.is_none() && contact.normal.is_none() && contact.slope.is_none()
+    });
+    idle.map(|contact| {
+        format!(
+            "contact {} has neither tangent nor normal nor slope: its friction acts on nothing",
+            contact.name
+        )
+    })
+}
+
+/// Whether a law has values that are proven, or read from a file, up to some slip speed.
+fn has_range(law: &Friction) -> bool {
+    matches!(law.kind(), LawKind::Expression | LawKind::Samples)
+}
+
+/// The laws of a system in the surroundings of their contacts, dither included, which its whole equations decide.
+pub(super) fn placed_in(reader: &mut Reader, document: &Table, system: &mut System) -> Option<()> {
+    let dithered = system.is_dithered();
+    if !dithered || !system.contacts.iter().any(|contact| has_range(&contact.friction)) {
+        return Some(());
+    }
+    let tables = listed(reader, document, "", "contact");
+    for (index, (prefix, node, table)) in tables.into_iter().enumerate() {
+        let around = system.surroundings(index);
+        let law = system.contacts[index].friction.clone();
+        system.contacts[index].friction = placed(reader, (table, node, &prefix), law, &around)?;
+    }
+    Some(())
+}
+
 /// The law in the surroundings of its contact: a formula is proven up to the slip speeds that are expected there.
 fn placed(
     reader: &mut Reader,
-    table: &Table,
-    prefix: &str,
-    contact: &Node,
+    (table, contact, prefix): (&Table, &Node, &str),
     law: Friction,
-    load: Option<f64>,
-    velocity: f64,
+    surroundings: &Surroundings,
 ) -> Option<Friction> {
-    if !matches!(law.kind(), LawKind::Expression | LawKind::Samples) {
+    if !has_range(&law) {
         return Some(law);
     }
-    let surroundings = Surroundings { normal_load: load.unwrap_or(1.0), slip: velocity.abs() };
-    match law.placed(&surroundings) {
+    match law.placed(surroundings) {
         Ok(law) => Some(law),
         Err(invalid) => {
             let (path, friction) = match table.get("friction") {

@@ -128,8 +128,7 @@ fn entries(
         let Value::List(row) = &node.value else { continue };
         if row.len() != n {
             let allowed = format!("a row of {n} numbers; got {}", row.len());
-            let at = format!("{key}[{i}]");
-            reader.complain(Complaint::new(Fault::Value, at, node.origin, row.len(), allowed));
+            reader.wrong(&format!("{key}[{i}]"), node, allowed);
             right = false;
             continue;
         }

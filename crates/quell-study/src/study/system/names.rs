@@ -1,6 +1,5 @@
 //! Names of coordinates, states, components and contacts.
 
-use quell_input::complaint::{Complaint, Fault};
 use quell_input::document::{Table, Value};
 
 use crate::study::reader::Reader;
@@ -22,7 +21,7 @@ pub(super) fn names(reader: &mut Reader, table: &Table, key: &str) -> Option<Vec
     };
     if list.is_empty() || list.len() > MOST_COORDINATES {
         let allowed = format!("an array of 1 to {MOST_COORDINATES} names; got {}", list.len());
-        reader.complain(Complaint::new(Fault::Value, key, node.origin, list.len(), allowed));
+        reader.wrong(&key, node, allowed);
         return None;
     }
     let mut names: Vec<String> = Vec::with_capacity(list.len());

@@ -82,6 +82,7 @@ pub(in crate::study) fn assemble(reader: &mut Reader, document: &Table) -> Optio
 
 /// The equations of the tables of a system, as far as they are right.
 struct SystemEquations<'t> {
+    document: &'t Table,
     /// The table `[system]`.
     table: &'t Table,
     units: UnitSystem,
@@ -134,6 +135,7 @@ impl<'t> SystemEquations<'t> {
         let contacts: Option<Vec<Contact>> =
             contacts.map(|read| read.into_iter().map(|read| read.contact).collect());
         let mut equations = Self {
+            document,
             table,
             units,
             named,
@@ -169,6 +171,7 @@ impl<'t> SystemEquations<'t> {
         let mut system = System { structure: self.structure?, contacts: self.contacts?, inputs };
         let known = self.actuator.as_ref().and_then(Option::as_ref);
         let sizes = sized::amplitudes(reader, &mut system, known, sizes)?;
+        contact::placed_in(reader, self.document, &mut system)?;
         if let (Some(response), Some(node)) = (&self.response, self.table.get("frequency_response"))
         {
             let System { contacts, inputs, .. } = &system;
@@ -207,7 +210,8 @@ fn warnings(
     let modal = table.has("mode") || table.has("modes") || table.has("component");
     let plausible = (!measured).then(|| plausible::warnings(system, units, modal));
     let half = table.has("coordinates").then(|| plausible::half_symmetric(system));
-    let listed = plausible.into_iter().chain(half).flatten();
+    let idle = (!measured).then(|| contact::without_rows(&system.contacts)).into_iter().flatten();
+    let listed = plausible.into_iter().chain(half).flatten().chain(idle);
     listed.chain(unused::warning(document, named)).collect()
 }
 

@@ -107,8 +107,7 @@ impl RowBasis {
                 self.what,
                 list.len()
             );
-            let complaint = Complaint::new(Fault::Value, key, node.origin, list.len(), allowed);
-            reader.complain(complaint);
+            reader.wrong(key, node, allowed);
             return None;
         }
         let row: Vec<Option<f64>> = list

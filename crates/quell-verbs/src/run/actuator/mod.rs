@@ -24,7 +24,7 @@ use serde_json::Value as Json;
 
 pub(crate) use demand::{demand_fields, warning_about_samples, warnings_about_actuator};
 pub(in crate::run) use rating::designed;
-pub(crate) use rating::{beyond_actuator, beyond_actuator_of_disc};
+pub(crate) use rating::{beyond_actuator, beyond_actuators_at_loads};
 
 use super::design::with_wave;
 use super::system::{self, checked_frequencies, has_equations};

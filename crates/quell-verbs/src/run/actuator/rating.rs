@@ -15,7 +15,7 @@ pub(crate) fn beyond_actuator(study: &SystemStudy) -> Option<String> {
 }
 
 /// The same of a disc: every load has its actuator, and all of them give the same.
-pub(crate) fn beyond_actuator_of_disc(study: &DiscStudy) -> Option<String> {
+pub(crate) fn beyond_actuators_at_loads(study: &DiscStudy) -> Option<String> {
     let actuator = study.actuator()?;
     let system = study.disc().system_in_si(study.parts())?.ok()?;
     demands_too_much(&system, actuator, 0)

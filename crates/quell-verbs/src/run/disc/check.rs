@@ -15,7 +15,7 @@ use serde_json::{Value as Json, json};
 
 use crate::disc_units::DiscUnits;
 use crate::removed_mean;
-use crate::run::actuator::beyond_actuator_of_disc;
+use crate::run::actuator::beyond_actuators_at_loads;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
 use crate::words::counted;
@@ -104,7 +104,7 @@ pub fn json(study: &DiscStudy) -> Json {
         .collect();
     let mut warnings = study.warnings().to_vec();
     warnings.extend(removed_mean::warnings(std::iter::once(disc.waveform())));
-    warnings.extend(beyond_actuator_of_disc(study));
+    warnings.extend(beyond_actuators_at_loads(study));
     let mut object = json!({
         "ok": true,
         "sentence": sentence(study),

@@ -13,7 +13,7 @@ pub use super::watch::NoObservedGrowth;
 use super::watch::RowWatch;
 use crate::complaint::Failure;
 use crate::disc_units::{DiscUnits, FORCE, POWER};
-use crate::run::actuator::beyond_actuator_of_disc;
+use crate::run::actuator::beyond_actuators_at_loads;
 use crate::run::simulate::{MotionRequest, Simulation, run_observed};
 use crate::run::system::in_units_of;
 use crate::run::system::periods::slowest_period;
@@ -206,7 +206,7 @@ impl DiscSimulation {
         let mut object = self.motion.json(&self.system);
         object["sentence"] = self.sentence(study).into();
         let mut warnings = self.warnings();
-        warnings.extend(beyond_actuator_of_disc(study));
+        warnings.extend(beyond_actuators_at_loads(study));
         object["warnings"] = warnings.into();
         object["leading_growth_rate"] = self.kick.eigenvalue.re.into();
         object["leading_frequency"] = self.kick.eigenvalue.im.abs().into();

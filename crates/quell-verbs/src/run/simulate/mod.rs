@@ -138,10 +138,12 @@ pub(crate) fn run_observed(
     let plan = plan.transpose()?;
     sample_times::are_within(start.time, until, request.times.as_deref())?;
     // That of a belt, whose time scale is 1. The engine refuses what takes too many steps; with more, it would begin runs of days.
-    let longest = MOST_TIME * motion.time_scale();
+    let acting = system.waves().filter(|wave| wave.amplitude != 0.0);
+    let shortest = acting.map(|wave| wave.highest().recip()).fold(motion.time_scale(), f64::min);
+    let longest = MOST_TIME * shortest;
     if until - start.time > longest {
         let allowed = format!(
-            "at most {} after the start, some 10⁸ periods of the fastest motion",
+            "at most {} after the start, some 10⁸ periods of the fastest motion or dither",
             in_units(study.units(), Quantity::Time, longest)
         );
         return Err(Complaint::option("--until", until, allowed).into());

@@ -23,7 +23,7 @@ use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::reasons::reasons;
 use crate::run::criticality::{FoundLyapunov, NoLyapunovCoefficient};
-use crate::run::varied::{OF_THE_EQUATIONS, kind_of_document, not_a_peak, number_meant};
+use crate::run::varied::{OF_THE_EQUATIONS, not_a_peak, number_meant};
 use crate::study::{Model, ParameterId, SystemStudy};
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -305,7 +305,7 @@ pub(in crate::run) fn understood(
         if study.number(path).is_none() {
             let contact = study.system().contacts.first().map_or("NAME", |contact| &contact.name);
             let example = study.path_of(contact, NORMAL_LOAD);
-            let allowed = match not_a_peak(path, kind_of_document(study)) {
+            let allowed = match not_a_peak(path, study.document_kind()) {
                 Some(why) => format!("the path of a peak value: {why}"),
                 None => format!("the path of a number of the study, such as {example}"),
             };
