@@ -42,6 +42,7 @@ const CALLS: &[&str] = &[
     "stability studies/figure-5.5.toml --json",
     "modes studies/table-5.1.toml --json",
     "modes studies/bowed-string.toml --json",
+    "receptance studies/two-mass-drive.toml --json --save FOLDER/receptance.csv",
     "resonances studies/figure-5.9.toml --json",
     "waveforms studies/how-much-dither.toml --json",
     "actuator studies/actuator.toml --json",

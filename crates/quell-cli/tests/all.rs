@@ -19,6 +19,7 @@ mod noise;
 mod orbit;
 mod pages;
 mod place;
+mod receptance;
 #[path = "place/repository.rs"]
 mod repository;
 mod reproduce;

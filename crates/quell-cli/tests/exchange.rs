@@ -1,4 +1,4 @@
-//! Files of other programs: matrices in, tables of MATLAB and NetCDF and friction models of Abaqus and Simscape out.
+//! Files of other programs: matrices in, tables of MATLAB and NetCDF and friction models of Abaqus, Simscape and Modelica out.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
@@ -120,6 +120,44 @@ fn models_are_fitted_with_their_errors() {
     // A smooth block has no corner: the best of 400 breakaway velocities by another program is off by 0.214 of the force.
     assert!((error / 6.0 - 0.214).abs() < 0.01, "{error}");
     assert!(text.contains("friction.kinetic_coefficient = [ ... % 1"), "{text}");
+}
+
+/// The brake of the Modelica Standard Library interpolates its table, goes on along the last two points, and holds `peak` times the
+/// first coefficient at rest.
+#[test]
+fn a_brake_of_modelica_is_the_averaged_friction() {
+    let steady = SINE.split("[dither]").next().expect("a belt");
+    let level = steady.replace("coefficient = 0.3", "coefficient = 0.3\nstatic_coefficient = 0.45");
+    let place = Place::with("exchange-modelica", &[("sine.toml", SINE), ("level.toml", &level)]);
+    let model = |study: &str, file: &str| {
+        place.good(&["friction", study, "--save", file]);
+        let text = fs::read_to_string(place.folder.join(file)).expect("written");
+        let (_, inner) = text.split_once("mu_pos=[").expect("a table");
+        let (table, rest) = inner.split_once("],").expect("an end");
+        let number = |text: &str| text.trim().parse::<f64>().expect("a number");
+        let points: Vec<(f64, f64)> = table
+            .split(';')
+            .map(|row| row.split_once(',').expect("two numbers"))
+            .map(|(speed, coefficient)| (number(speed), number(coefficient)))
+            .collect();
+        let after = |name: &str| {
+            let (_, value) = rest.split_once(&format!("{name}=")).expect("a parameter");
+            number(value.split([',', ')']).next().expect("a number"))
+        };
+        (points, after("peak"), after("fn_max"))
+    };
+    let (points, peak, load) = model("sine.toml", "sine.mo");
+    assert_eq!((points[0], peak, load), ((0.0, 0.0), 1.0, 20.0));
+    assert!(points.windows(2).all(|pair| pair[0].0 < pair[1].0), "{points:?}");
+    let [.., before, last] = points[..] else { panic!("{points:?}") };
+    assert_eq!(before.1, last.1, "the coefficient stays beyond the table");
+    let fast = 40.0 / (2.0 * 200.0) / (1.0 - 1.0 / 400.0);
+    let table: Vec<(f64, f64)> =
+        points.into_iter().map(|(speed, friction)| (friction, speed)).collect();
+    let middle = interpolated(&table, 0.5 * fast);
+    assert!((middle - 0.1).abs() < 5e-4, "{middle}");
+    let (points, peak, _) = model("level.toml", "level.mo");
+    assert!((peak - 1.5).abs() < 1e-12 && points[0] == (0.0, 0.3), "{peak} {points:?}");
 }
 
 #[test]

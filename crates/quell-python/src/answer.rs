@@ -35,7 +35,7 @@ impl NativeAnswer {
 }
 
 /// The complaint about a file of another program that the result does not have.
-const NO_EXPORT: &str = "only averaged friction is saved as .inp or .m";
+const NO_EXPORT: &str = "only averaged friction is saved as .inp, .m or .mo";
 
 /// The datasets of an outcome. The events of a run are a field of its facts in Python, not a dataset.
 fn tables(outcome: &dyn Outcome) -> Vec<(&'static str, Dataset)> {

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use quell::document::{Node, Table};
 use quell::run::basins::StartLayout;
 use quell::run::bifurcation::SweepRequest;
+use quell::run::fewer_contacts::{Conversion, FewerContacts};
 use quell::run::moment::at_time;
 use quell::run::response::ResponseTexts;
 use quell::run::varied::Range;
@@ -23,8 +24,8 @@ use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
     actuator, attractor, basins, bifurcation, check, cite, compare, design, fit, friction, map,
-    modes, orbit, probability, report, resonances, response, simulate, sketch, stability,
-    thresholds, waveforms,
+    modes, orbit, probability, receptance, report, resonances, response, simulate, sketch,
+    stability, thresholds, waveforms,
 };
 use crate::{call, convert, errors};
 
@@ -161,16 +162,22 @@ impl NativeStudy {
         })
     }
 
-    /// The study as that of a system, and what was left out.
-    fn converted(&self, py: Python<'_>) -> PyResult<(Self, Vec<String>)> {
+    /// The study as that of a system, with at most so many contacts on a surface; what was left out, and what that changes.
+    fn converted(
+        &self,
+        py: Python<'_>,
+        fewer: Option<(usize, f64)>,
+    ) -> PyResult<(Self, Vec<String>)> {
         let study = self.study();
-        let converted = call::here(py, move || {
-            study
-                .as_system()
-                .map_err(|complaints| Failure::Wrong(errors::without_lines(complaints)))
+        let done = call::run(py, move || {
+            Conversion::of(&study, fewer).map_err(|failure| match failure {
+                Failure::Wrong(complaints) => Failure::Wrong(errors::without_lines(complaints)),
+                failed @ Failure::Failed { .. } => failed,
+            })
         })?;
-        let warnings = converted.warnings();
-        let inner = Arc::new(converted.study);
+        let mut warnings = done.warnings();
+        warnings.extend(done.fewer().map(FewerContacts::sentence));
+        let inner = Arc::new(done.study().clone());
         let study = Self { inner, changes: Vec::new(), axes: None, has_lines: false, file: None };
         Ok((study, warnings))
     }
@@ -515,6 +522,17 @@ impl NativeStudy {
     fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || modes::run(&study))
+    }
+
+    fn receptance(
+        &self,
+        py: Python<'_>,
+        rows: [Vec<String>; 2],
+        contacts: String,
+        frequencies: (Option<Pair>, Option<usize>, Vec<String>),
+    ) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || receptance::run(&study, rows, &contacts, &frequencies))
     }
 
     #[pyo3(signature = (speeds, order, clear, frequency))]

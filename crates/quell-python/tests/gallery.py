@@ -291,6 +291,8 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "modes": lambda: disc().modes(),
     "modes in SI": lambda: disc_in_si().modes(),
     "modes of a system": lambda: study("drive in SI").modes(),
+    "receptance": lambda: belt().receptance(),
+    "receptance in SI": lambda: study("drive in SI").receptance(contacts="springs", points=20),
     "resonances": lambda: disc().resonances(),
     "resonances with clear speeds": lambda: disc().resonances(clear=(0.2, 0.4), frequency=(2.0, 6.0)),
     "resonances in SI": lambda: disc_in_si().resonances(),

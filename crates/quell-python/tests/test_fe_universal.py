@@ -317,3 +317,65 @@ def test_complex_modes_are_written_and_read_again(tmp_path: Path) -> None:
     disc = quell.load(Path(__file__).parents[3] / "studies" / "figure-5.3.toml")
     with pytest.raises(quell.StudyError, match="convert"):
         disc.modes().to_universal_file(tmp_path / "disc.unv")
+
+
+def test_receptances_go_out_and_come_back(tmp_path: Path) -> None:
+    hertz, ratio = [300.0, 1250.0, 1800.0], 1e-4
+    shapes = [[complex(x * (1 + place) ** number) for place, x in enumerate(SHAPE)] for number in range(3)]
+    modes = [mode_2414(number + 1, value, 2.0, shape) for number, (value, shape) in enumerate(zip(hertz, shapes, strict=True))]
+    first, second = f"n{NODES[0]}_x", f"n{NODES[1]}_y"
+    contact = pad(first)["contact"]
+    study = quell.from_universal_file(write(tmp_path / "m.unv", *modes), damping_ratio=ratio, units="SI", contact=contact)
+    found = study.receptance(outputs=[first, second], inputs=first, contacts="none")
+    assert found.receptance.shape == (2, 1, found.points) and found.outputs == [first, second]
+    # Resonances with a half-width of 0.03 Hz are resolved.
+    peaks = np.abs(found.receptance[0, 0])
+    near = np.abs(found.frequency / (2 * np.pi * 300.0) - 1.0) < 1e-4
+    assert near.sum() >= 15 and peaks[near].max() == peaks.max()
+    path = found.to_universal_file(tmp_path / "out.unv")
+    with pytest.raises(quell.StudyError, match="a new file"):
+        found.to_universal_file(path)
+    again = quell.from_universal_file(
+        path, units="file", points={"a": (NODES[0], "x"), "b": (NODES[1], "y")}, save=tmp_path / "f.csv", contact=pad("a")["contact"]
+    )
+    assert again.stability().verdict == study.stability().verdict
+    rows = np.genfromtxt(tmp_path / "f.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+    rows = rows[rows["output"] == "b"]
+    values = study.receptance(
+        outputs=second, inputs=first, contacts="none", at=[f"{one!r}Hz" for one in rows["frequency_hz"].tolist()]
+    ).receptance[0, 0]
+    assert np.abs((rows["re"] + 1j * rows["im"]) / values - 1.0).max() < 1e-11
+    plain = quell.load(Path(__file__).parents[3] / "studies" / "mode-coupling.toml").receptance()
+    with pytest.raises(quell.StudyError, match="in hertz"):
+        plain.to_universal_file(tmp_path / "plain.unv")
+
+
+def test_receptances_are_read_by_pyuff(tmp_path: Path) -> None:
+    pyuff = pytest.importorskip("pyuff")
+    belt = quell.load(Path(__file__).parents[3] / "studies" / "brake-si.toml")
+    found = belt.receptance(frequency=("1Hz", "3kHz"), points=50)
+    one = pyuff.UFF(found.to_universal_file(tmp_path / "belt.unv")).read_sets()[-1]
+    assert (one["func_type"], one["ordinate_spec_data_type"], one["orddenom_spec_data_type"]) == (4, 8, 13)
+    assert one["rsp_ent_name"].strip() == "belt.tange" and one["num_pts"] == 50
+    assert one["data"] == pytest.approx(found.receptance[0, 0], rel=1e-4)
+
+
+def test_few_contacts_stand_for_a_surface() -> None:
+    names = ["x", "y", "turn"]
+    contacts = [
+        quell.Contact(
+            name=f"p{k}", tangent={"x": 1.0, "turn": 0.2}, normal={"y": 1.0, "turn": k / 20 - 0.5},
+            normal_load=1.5, normal_stiffness=200.0, belt_velocity=0.05,
+        )
+        for k in range(21)
+    ]  # fmt: skip
+    study = quell.System(
+        coordinates=names, mass=[1.0, 1.0, 0.1], stiffness=[2000.0, 1000.0, 300.0], damping=[0.2, 0.2, 0.02],
+        contact=contacts, friction=quell.Coulomb(coefficient=0.4),
+    )  # fmt: skip
+    with pytest.warns(UserWarning, match="stand for 21"):
+        few = study.convert(contacts=6)
+    assert len(few.contact) <= 6
+    assert few.stability().growth_rate == pytest.approx(study.stability().growth_rate, abs=1e-5)
+    with pytest.raises(quell.StudyError, match="error"):
+        study.convert(error=1e-3)

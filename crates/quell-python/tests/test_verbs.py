@@ -154,6 +154,8 @@ CASES: list[tuple[str, str, list[str], Any]] = [
     ("compare", str(STUDIES / "measured-belt.toml"), [str(STUDIES / "synthetic-squeal.csv"), "--after", str(STUDIES / "synthetic-quenched.csv")],
      lambda study: study.compare(STUDIES / "synthetic-squeal.csv", after=STUDIES / "synthetic-quenched.csv")),
     ("modes", DISC, [], lambda study: study.modes()),
+    ("receptance", str(STUDIES / "mode-coupling.toml"), ["--outputs", "x,pad.normal", "--at", "0.5,1"],
+     lambda study: study.receptance(outputs=["x", "pad.normal"], at=[0.5, 1.0])),
     ("resonances", DISC, ["--speeds", "0:0.9"], lambda study: study.resonances(speeds=(0, 0.9))),
 ]  # fmt: skip
 

@@ -26,7 +26,7 @@ pub struct Array {
     /// Values; NaN only where a value is missing.
     pub values: Vec<f64>,
     /// Words with their codes if the values are codes; empty if they are numbers.
-    pub words: Vec<(u8, &'static str)>,
+    pub words: Vec<(u8, String)>,
 }
 
 impl Array {
@@ -39,14 +39,22 @@ impl Array {
     /// An array of codes of words.
     pub fn of_words(name: impl Into<String>, words: Vec<(u8, &'static str)>, codes: &[u8]) -> Self {
         let values = codes.iter().copied().map(f64::from).collect();
+        let words = words.into_iter().map(|(code, word)| (code, word.to_owned())).collect();
         Self { words, ..Self::new(name, "1", values) }
+    }
+
+    /// An axis of names, of which there are at most 256.
+    pub fn of_names(name: impl Into<String>, names: &[String]) -> Self {
+        let words: Vec<(u8, String)> = (0..=u8::MAX).zip(names.iter().cloned()).collect();
+        let codes = words.iter().map(|(code, _)| f64::from(*code)).collect();
+        Self { words, ..Self::new(name, "1", codes) }
     }
 
     /// Appends a value in its CSV form; nothing if it is missing.
     fn write(&self, value: f64, text: &mut String) {
         if !self.words.is_empty() {
             let word = self.words.iter().find(|(code, _)| f64::from(*code) == value);
-            text.push_str(word.map_or("", |(_, word)| word));
+            text.push_str(word.map_or("", |(_, word)| word.as_str()));
         } else if value.is_finite() {
             // Shortest digits that read back as the same number.
             let _ = write!(text, "{value:?}");

@@ -113,6 +113,7 @@ pub const VERBS: &[StudyVerb] = &[
     verb("report", Needs::SLIDING),
     StudyVerb { draws: false, ..verb("cite", Needs::RUN) },
     verb("modes", Needs::SLIDING),
+    verb("receptance", Needs::CONTACTS),
     verb("friction", Needs::CONTACTS),
     verb("friction --measured", Needs::MOTIONS),
     verb("friction --describing", Needs::CONTACTS),

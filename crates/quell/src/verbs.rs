@@ -17,6 +17,7 @@ use crate::run::probability::{ProbabilityRequest, ProbabilityStart};
 use crate::run::recorded_motion::ObservedMotion;
 use crate::run::response::ResponseRequest;
 use crate::run::simulate::MotionRequest;
+use crate::run::system::receptance::{self, ReceptanceRequest};
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{design, exact, has_equations, measured, modes, reach, tracked};
 use crate::run::thresholds::curves::{self, CurvesRequest};
@@ -382,6 +383,15 @@ impl Verbs {
         }
         let study = self.study.system();
         answer(&study, modes::run(&study))
+    }
+
+    /// Displacement over force between rows, over frequency.
+    ///
+    /// # Errors
+    /// As [`receptance::run`].
+    pub fn receptance(&self, request: &ReceptanceRequest) -> Reply {
+        let study = self.system("receptance")?;
+        answer(&study, receptance::run(&study, request))
     }
 }
 

@@ -29,9 +29,9 @@ pub(crate) struct Arguments {
     describing: Option<String>,
     #[command(flatten)]
     plot: PlotArguments,
-    /// Saves the numbers as a table (.csv, .mat for MATLAB, .nc for NetCDF), or the averaged friction for Abaqus (.inp) or as a
-    /// script of MATLAB with parameters of Simscape (.m), for slip speeds from 0 to the largest of --at
-    #[arg(long, value_name = "FILE.csv|.mat|.nc|.inp|.m")]
+    /// Saves the numbers as a table (.csv, .mat for MATLAB, .nc for NetCDF), or the averaged friction for Abaqus (.inp), as a
+    /// script of MATLAB with parameters of Simscape (.m) or as a brake of Modelica (.mo), for slip speeds from 0 to the largest of --at
+    #[arg(long, value_name = "FILE.csv|.mat|.nc|.inp|.m|.mo")]
     save: Option<PathBuf>,
 }
 

@@ -141,6 +141,10 @@ verbs! {
             "quell modes disc.toml",
             "quell modes mode-coupling.toml",
         ],
+        Receptance(receptance): [
+            "quell receptance mode-coupling.toml --plot receptance.svg",
+            "quell receptance two-mass-drive.toml --outputs carriage --inputs carriage --frequency 0:20 --save carriage.csv",
+        ],
         Resonances(resonances): [
             "quell resonances disc-dither.toml --clear 0.25:0.9 --frequency 2:6",
             "quell resonances two-mass-drive.toml --frequency 1:100",

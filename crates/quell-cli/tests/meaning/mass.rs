@@ -290,7 +290,7 @@ fn asked(random: &mut Random, mass: &Mass, shaking: &Shaking) -> Vec<Vec<String>
         Units::None => ["0.02,0.3", "30"],
         _ => ["0.1 m/s,1 m/s", "1 s"],
     };
-    let verbs = ["check", "stability", "orbit", "modes", "resonances"];
+    let verbs = ["check", "stability", "orbit", "modes", "receptance", "resonances"];
     let mut asked: Vec<Vec<String>> =
         verbs.iter().map(|verb| vec![(*verb).to_owned(), "STUDY".to_owned()]).collect();
     for [verb, option, value] in [["friction", "--at", speed], ["simulate", "--until", end]] {

@@ -22,6 +22,7 @@ const VERBS: &[(&str, bool)] = &[
     ("friction", true),
     ("modes", true),
     ("orbit", true),
+    ("receptance", true),
     ("resonances", true),
     ("response", true),
     ("stability", true),

@@ -23,6 +23,16 @@ pub enum InputTarget {
     },
 }
 
+impl InputTarget {
+    /// The contact whose load or friction it changes, counted from 0.
+    pub fn contact(&self) -> Option<usize> {
+        match self {
+            Self::Force(_) => None,
+            Self::NormalLoad { contact, .. } | Self::Friction { contact } => Some(*contact),
+        }
+    }
+}
+
 /// A profile and where it enters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Input {

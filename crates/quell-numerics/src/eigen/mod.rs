@@ -226,6 +226,30 @@ impl Decomposition {
         Shifted::new(&self.hessenberg, self.n, self.stride, self.norm, shift)
     }
 
+    /// Solves (A − σ)x = b for several real b, in O(n²) each; `None` where σ is an eigenvalue up to rounding.
+    pub fn solve_shifted(
+        &self,
+        shift: Complex64,
+        columns: &[Vec<f64>],
+    ) -> Option<Vec<Vec<Complex64>>> {
+        let nearest = self.values.iter().map(|value| modulus(value - shift));
+        if nearest.fold(f64::INFINITY, f64::min) <= self.backward_error() {
+            return None;
+        }
+        let reduced = columns.iter().map(|column| {
+            let mut inside = Split::zeros(self.stride);
+            let entries = column.iter().zip(&self.scales).map(|(entry, scale)| entry / scale);
+            inside.re.iter_mut().zip(entries).for_each(|(to, entry)| *to = entry);
+            self.reflectors.reduce_vector(&mut inside.re);
+            inside
+        });
+        let solved = with_fused_multiply_add(Solved { of: self, shift, right: reduced.collect() });
+        let one = Complex64::new(1.0, 0.0);
+        let outside: Vec<Vec<Complex64>> =
+            solved.into_iter().map(|x| self.outside(x, |scale| scale, one)).collect();
+        outside.iter().flatten().all(|entry| entry.is_finite()).then_some(outside)
+    }
+
     /// Transforms a vector from the reduced coordinates to those of the matrix: Dᵖ Q x.
     fn outside(
         &self,
@@ -279,6 +303,22 @@ impl Work for Vectors<'_> {
         let Self { of, room, value, variant } = self;
         room.factor(&of.hessenberg, of.norm, value);
         room.vectors(variant)
+    }
+}
+
+struct Solved<'a> {
+    of: &'a Decomposition,
+    shift: Complex64,
+    right: Vec<Split>,
+}
+
+impl Work for Solved<'_> {
+    type Output = Vec<Split>;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let factors = self.of.shifted(self.shift);
+        self.right.into_iter().map(|right| factors.solve(right)).collect()
     }
 }
 

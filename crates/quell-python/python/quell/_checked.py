@@ -144,8 +144,8 @@ class CheckedStudy(Frozen):
         return study
 
     @keywords
-    def convert(self, *, to: Literal["system"] = "system") -> System:
-        """Returns the study of a belt or a disc as that of a system, with the numbers of its equations.
+    def convert(self, *, to: Literal["system"] = "system", contacts: int | None = None, error: float | None = None) -> System:
+        """Returns the study of a belt or a disc as that of a system, or a system with few contacts in place of a surface of many.
 
         A belt keeps its own keys under the names of a system; a disc is written by its modes in the frame of its loads, in SI where its
         material, size and speed are known. :meth:`to_toml` writes it to a file.
@@ -154,16 +154,22 @@ class CheckedStudy(Frozen):
         ----------
         to :
             Kind of the study.
+        contacts :
+            Replaces the contacts of each law and surface by at most so many of them, with larger loads and stiffnesses: a quadrature of
+            the surface for small motions. A part of it sticks or opens alone only where a contact stands for it.
+        error :
+            Relative error that the sums over a surface may have, for fewer contacts [default: 1e-6].
 
         Raises
         ------
         quell.StudyError
-            A study of a system; a disc that varies in time, or whose friction is a formula or a measured curve.
+            A study of a system without ``contacts``; a disc that varies in time, or whose friction is a formula or a measured curve.
 
         Warns
         -----
         UserWarning
-            Tables for which a system has no place were left out.
+            Tables for which a system has no place were left out. With ``contacts`` how many stand for how many, with which error, and what
+            that changes in the largest growth rate.
 
         Examples
         --------
@@ -173,10 +179,16 @@ class CheckedStudy(Frozen):
         """
         from ._system import System
 
+        arguments = Arguments()
         if to != "system":
-            raise StudyError([complaint("to", to, '"system"')])
-        native, left_out = self._native.converted()
-        for words in left_out:
+            arguments.wrong.append(complaint("to", to, '"system"'))
+        most = arguments.optional(arguments.whole, "contacts", contacts, 1, 2**31)
+        bound = arguments.optional(arguments.number, "error", error)
+        arguments.conflict(error is not None and contacts is None, "left out, or given with contacts", error=error)
+        arguments.done()
+        fewer = None if most is None else (most, 1e-6 if bound is None else bound)
+        native, said = self._native.converted(fewer)
+        for words in said:
             warnings.warn(words, stacklevel=3)
         return System._of(native)
 

@@ -250,7 +250,7 @@ class Result(Frozen):
         """Writes the arrays as .csv, .mat (MATLAB) or .nc (NetCDF), the picture as .svg, .pdf or .png, or a run as .wav.
 
         The files are those of ``--save`` and ``--plot`` on the command line. Tables have units and the study in them. Averaged friction
-        is also written for Abaqus (.inp) and as a script of MATLAB with parameters of Simscape (.m).
+        is also written for Abaqus (.inp), as a script of MATLAB with parameters of Simscape (.m), and as a brake of Modelica (.mo).
 
         Parameters
         ----------

@@ -1,6 +1,6 @@
 """The verbs of a study, which have the names of the command line: one method for each, which checks its arguments.
 
-What a study is apart from its verbs is in ``_checked.py``.
+Those about the structure are in ``_linear.py``; what a study is apart from its verbs is in ``_checked.py``.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ import numpy.typing as npt
 from . import results
 from ._arguments import Arguments, flags, keywords
 from ._axes import Axes
-from ._checked import CheckedStudy
 from ._errors import complaint
 from ._laws import StudyFriction
+from ._linear import LinearVerbs, State
 from ._record import names_of, record_of
 from ._tables import Number
 from ._values import plain
@@ -27,14 +27,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Study"]
 
-State = tuple[Number, Number]
-"""Two numbers: displacement and velocity, or the ends of a range."""
-
 A_TIME = 'a finite number, or a time with its unit such as "0.5s"'
 A_NUMBER_OF_A_SYSTEM = "path of a number, such as contact.pad.friction.coefficient"
 
 
-class Study(CheckedStudy):
+class Study(LinearVerbs):
     """A checked study: of a belt, of a disc or of a system.
 
     Made by :class:`quell.Belt`, :class:`quell.Disc`, :class:`quell.System`, :meth:`from_toml` or :meth:`from_text`. A study is
@@ -858,42 +855,3 @@ class Study(CheckedStudy):
         texts = record_of(arguments, column, quantity, gain, window, columns)
         arguments.done()
         return results.RecordFit._of(self, self._native.fit_record((place, freed, fixed), time, texts))
-
-    def modes(self) -> results.Modes:
-        """Natural frequencies and shapes of a belt, a disc or a system, and critical speeds of a disc."""
-        return results.Modes._of(self, self._native.modes())
-
-    @keywords
-    def resonances(
-        self,
-        *,
-        speeds: State | None = None,
-        order: Literal["first", "second"] = "first",
-        clear: State | None = None,
-        frequency: State | None = None,
-    ) -> results.Resonances:
-        """Speeds at which waves of a disc meet, the meetings that can be unstable, and clear dither frequencies.
-
-        Belt or system: the slip at each contact per unit of each dither, over the dither frequency.
-
-        Parameters
-        ----------
-        speeds :
-            Disc: range of speeds in which meetings are listed, in ω_ref, or as texts with units such as ``"900rpm"`` [default: 0
-            to 1 ω_ref]. If a load is given in SI, plain numbers are in Hz.
-        order :
-            Disc: order of the theory in the friction, "first" or "second".
-        clear :
-            Disc: a range of speeds that the dither should keep clear.
-        frequency :
-            Disc: the range of dither frequencies R to search, with ``clear``. System: the range of angular frequencies, or of
-            texts with units such as ``"2kHz"`` [default: 0.1 to 10 times that of the dither].
-        """
-        arguments = Arguments()
-        two = "two finite numbers"
-        ranges = arguments.optional(arguments.quantities, "speeds", speeds, two)
-        wanted = arguments.optional(arguments.quantities, "clear", clear, two)
-        within = arguments.optional(arguments.quantities, "frequency", frequency, two)
-        how_far = arguments.text("order", order, '"first" or "second"')
-        arguments.done()
-        return results.Resonances._of(self, self._native.resonances(ranges, how_far, wanted, within))

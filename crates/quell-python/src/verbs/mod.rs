@@ -15,6 +15,7 @@ pub(crate) mod modes;
 pub(crate) mod new;
 pub(crate) mod orbit;
 pub(crate) mod probability;
+pub(crate) mod receptance;
 pub(crate) mod report;
 pub(crate) mod reproduce;
 pub(crate) mod resonances;

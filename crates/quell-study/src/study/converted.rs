@@ -87,6 +87,13 @@ impl Study {
     }
 }
 
+impl Study {
+    /// Whether it names files, relative to its folder.
+    pub fn names_files(&self) -> bool {
+        names_files(&self.source.document)
+    }
+}
+
 /// Whether a value is the name of a file.
 fn names_files(table: &Table) -> bool {
     table.iter().any(|(key, given)| {

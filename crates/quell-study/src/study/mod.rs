@@ -31,6 +31,7 @@ mod course;
 mod design;
 pub mod disc;
 pub(crate) mod dither_size;
+mod fewer_contacts;
 mod friction;
 mod kind;
 mod model;

@@ -15,6 +15,7 @@ pub mod design;
 pub mod disc;
 mod effect_words;
 pub mod exponents;
+pub mod fewer_contacts;
 pub mod fit;
 pub mod found_attractor;
 pub mod friction;

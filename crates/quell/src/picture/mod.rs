@@ -23,6 +23,7 @@ pub mod orbit;
 mod page;
 mod probability;
 pub(crate) mod ramp;
+pub(crate) mod receptance;
 mod response;
 mod ruler;
 mod simulate;

@@ -173,7 +173,7 @@ fn over(shape: &[usize], array: &Array) -> MatArray {
 fn meanings(array: &Array) -> MatArray {
     let codes = array.words.iter().map(|(code, _)| f64::from(*code));
     let codes = MatArray::numbers(vec![array.words.len(), 1], codes);
-    let meanings = MatArray::texts(array.words.iter().map(|(_, word)| *word));
+    let meanings = MatArray::texts(array.words.iter().map(|(_, word)| word.as_str()));
     MatArray::structure(&[("codes".to_owned(), codes), ("meanings".to_owned(), meanings)])
 }
 

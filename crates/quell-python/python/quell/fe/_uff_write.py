@@ -1,21 +1,30 @@
-"""Complex modes as a universal file: data set 55, which programs for modal tests and finite elements read."""
+"""Complex modes and frequency responses as universal files, which programs for modal tests and finite elements read: data sets 55 and 58."""
 
 from __future__ import annotations
 
 import math
 import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
 
 from .._arguments import Arguments
 from .._errors import StudyError, complaint
 from ._points import DIRECTIONS, Dof
 
-__all__ = ["WrittenMode", "write_modes"]
+__all__ = ["WrittenMode", "write_functions", "write_modes"]
 
 COMPLEX_EIGENVALUE, DISPLACEMENT, DOUBLE_COMPLEX = 3, 8, 6
 """Analysis of the first order, displacements, and complex numbers."""
+
+EXCITATION, FREQUENCY, FREQUENCY_RESPONSE = 13, 18, 4
+"""Forces of excitation, frequencies in Hz, and the type of a frequency response function."""
+
+LABELS = {"SI": ("m", "N"), "mm-t-s": ("mm", "N")}
+"""Length and force of unit systems."""
 
 NAME = re.compile(r"(?:.*\.)?n(\d+)_(\w+)")
 """Names that :func:`quell.from_universal_file` and the readers of other programs give, also of a component."""
@@ -76,12 +85,50 @@ def write_modes(
     quell.StudyError
         The file exists, or cannot be written.
     """
+    place = checked_path(path)
+    dofs, words = places_of(coordinates)
+    title, units = head
+    sets = [data_set(number, title, words, dofs, mode) for number, mode in enumerate(modes, 1)]
+    return write_sets(place, units, sets, overwrite)
+
+
+def write_functions(
+    path: str | os.PathLike[str],
+    head: tuple[str, str],
+    hertz: npt.NDArray[np.float64],
+    receptances: Mapping[tuple[str, str], npt.NDArray[np.complex128]],
+    overwrite: bool,
+) -> str:
+    """Writes receptances (output, input) over frequency with this title and these units, one data set each; returns the path.
+
+    Raises
+    ------
+    quell.StudyError
+        The file exists, or cannot be written.
+    """
+    place = checked_path(path)
+    names = list(dict.fromkeys(name for pair in receptances for name in pair))
+    dofs = dict(zip(names, places_of(names)[0], strict=True))
+    title, units = head
+    sets = []
+    for number, ((output, force), values) in enumerate(receptances.items(), 1):
+        known = np.isfinite(values)
+        points = [(output, dofs[output]), (force, dofs[force])]
+        sets.append(function_set((number, title, units), points, hertz[known], values[known]))
+    return write_sets(place, units, sets, overwrite)
+
+
+def checked_path(path: str | os.PathLike[str]) -> str:
+    """The path of a file to write."""
     arguments = Arguments()
     place = arguments.path("path", path)
     arguments.done()
-    dofs, words = places_of(coordinates)
-    title, units = head
-    text = units_set(units) + "".join(data_set(number, title, words, dofs, mode) for number, mode in enumerate(modes, 1))
+    return place
+
+
+def write_sets(place: str, units: str, sets: Iterable[str], overwrite: bool) -> str:
+    """Writes data sets after that of the units; returns the path."""
+    text = units_set(units) + "".join(sets)
     try:
         with open(place, "w" if overwrite else "x", encoding="ascii", errors="replace", newline="\n") as file:
             file.write(text)
@@ -120,6 +167,49 @@ def data_set(number: int, title: str, words: list[str], dofs: list[Dof], mode: W
         lines.append(integers(node))
         lines += [reals(*flat[at : at + 6]) for at in range(0, len(flat), 6)]
     return "\n".join([*lines, "    -1", ""])
+
+
+def function_set(
+    head: tuple[int, str, str],
+    points: Sequence[tuple[str, Dof]],
+    hertz: npt.NDArray[np.float64],
+    values: npt.NDArray[np.complex128],
+) -> str:
+    """One data set 58: displacement at the first point over force at the second."""
+    number, title, units = head
+    (output, (node, direction)), (force, (forced, along)) = points
+    length, force_unit = LABELS[units]
+    # Each frequency has a number of its own: that of even ones would be lost to six digits of their increment.
+    lines = [
+        "    -1",
+        "    58",
+        (title or "NONE")[:80],
+        f"Displacement of {output} over a force along {force}"[:80],
+        "NONE",
+        f"Quell: receptance {number}",
+        "NONE",
+        f"{FREQUENCY_RESPONSE:5d}{number:10d}{0:5d}{0:10d}"
+        f" {name_of(output):10s}{node:10d}{direction:4d} {name_of(force):10s}{forced:10d}{along:4d}",
+        f"{DOUBLE_COMPLEX:10d}{hertz.size:10d}{0:10d}{hertz[0] if hertz.size else 0.0:13.5e}{0.0:13.5e}{0.0:13.5e}",
+        axis(FREQUENCY, 0, "Frequency", "Hz"),
+        axis(DISPLACEMENT, 1, "Displacement", length),
+        axis(EXCITATION, 0, "Force", force_unit),
+        axis(0, 0, "NONE", "NONE"),
+    ]
+    rows = zip(hertz.tolist(), values.real.tolist(), values.imag.tolist(), strict=True)
+    lines += [f"{at:13.5e}{re:20.12e}{im:20.12e}" for at, re, im in rows]
+    return "\n".join([*lines, "    -1", ""])
+
+
+def axis(kind: int, length: int, label: str, unit: str) -> str:
+    """An axis of a data set 58: specific type, exponents of length, force and temperature, and the words."""
+    return f"{kind:10d}{length:5d}{0:5d}{0:5d} {label:20s} {unit:20s}"
+
+
+def name_of(point: str) -> str:
+    """The entity name of a point: the part of its name before the node."""
+    match = NAME.fullmatch(point)
+    return "NONE" if match else point[:10]
 
 
 def integers(*values: int) -> str:

@@ -19,7 +19,7 @@ from .._frozen import FrozenDict, Records
 from .._result import Result
 from ._measured import Comparison, Decay, LawFit, RecordFit
 from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
-from ._steady import Actuator, Check, Citations, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
+from ._steady import Actuator, Check, Citations, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Receptance, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
 
 __all__ = [
@@ -46,6 +46,7 @@ __all__ = [
     "Ramp",
     "RecordFit",
     "Records",
+    "Receptance",
     "Resonances",
     "Response",
     "Result",

@@ -664,6 +664,80 @@ class Modes(Result):
     """Disc: damping (n,)."""
 
 
+class Receptance(Result):
+    """Displacement over force between rows, over frequency.
+
+    The dataset has ``re`` and ``im`` over ``output``, ``input`` and ``frequency``.
+    """
+
+    verb = "receptance"
+    contacts: Literal["sliding", "springs", "none"]
+    """What the contacts are: sliding with friction, springs without friction, or none."""
+    verdict: Verdict
+    """Whether small motions decay; where they grow, no measurement shows these responses."""
+    outputs: list[str]
+    """Names of the rows whose displacements are given."""
+    inputs: list[str]
+    """Names of the rows along which forces act."""
+    from_: float
+    """Least angular frequency."""
+    to: float
+    """Largest angular frequency."""
+    points: int
+    """Number of frequencies."""
+    receptances: Records
+    """``output``, ``input``, ``largest`` (the largest magnitude) and its ``frequency`` of each pair."""
+    frequency: npt.NDArray[np.float64]
+    """Angular frequencies (n,)."""
+    output: npt.NDArray[np.uint8]
+    """Number of each output (n,)."""
+    input: npt.NDArray[np.uint8]
+    """Number of each input (n,)."""
+    re: npt.NDArray[np.float64]
+    """Real part over output, input and frequency; NaN at an undamped resonance."""
+    im: npt.NDArray[np.float64]
+    """Imaginary part over output, input and frequency; NaN at an undamped resonance."""
+
+    @property
+    def receptance(self) -> npt.NDArray[np.complex128]:
+        """The receptances over output, input and frequency, complex."""
+        found: npt.NDArray[np.complex128] = self.re + 1j * self.im
+        return found
+
+    def to_universal_file(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> str:
+        """Writes the receptances as data sets 58 of a universal file: frequency response functions over hertz, with double precision.
+
+        Rows that are named by node and direction (``n1204_x``) keep both; others become the x of nodes of their own, and the entity
+        names of the functions have the beginning of their names. The data set has room for six digits of a frequency: the receptances
+        are those at the frequencies that it has. Frequencies without a value are left out.
+
+        Returns
+        -------
+        str
+            The path.
+
+        Raises
+        ------
+        quell.StudyError
+            The file exists, or cannot be written; a study without units, whose frequencies are not in hertz.
+        """
+        from .._errors import StudyError, complaint
+        from ..fe._uff_write import write_functions
+
+        units = str(self.study.check().facts.get("unit_system", "none"))
+        if units == "none":
+            allowed = "a study with units: the frequencies of data set 58 are in hertz"
+            raise StudyError([complaint("to_universal_file", None, allowed, "usage")])
+        # The data set has room for six digits of a frequency.
+        hertz = np.unique([float(f"{one:.5e}") for one in self.frequency / (2.0 * np.pi)])
+        same = self.study.receptance(
+            outputs=self.outputs, inputs=self.inputs, contacts=self.contacts, at=[f"{one!r}Hz" for one in hertz.tolist()]
+        )
+        found = same.receptance
+        pairs = {(a, b): found[i, j] for i, a in enumerate(self.outputs) for j, b in enumerate(self.inputs)}
+        return write_functions(path, (self.study.title or "", units), hertz, pairs, overwrite)
+
+
 class Resonances(Result):
     """Meetings of the waves of a disc, or responses of the contacts of a system to its dithers."""
 

@@ -92,6 +92,22 @@ impl SystemStudy {
         &self.kind().warnings
     }
 
+    /// The names of rows over the coordinates: `CONTACT.tangent` and `CONTACT.normal` of the contacts, then points and coordinates.
+    pub fn row_names(&self) -> Vec<String> {
+        let of_contacts = self.system().contacts.iter().flat_map(setup::rows_of);
+        let others = self.kind().basis.candidates().into_iter().map(str::to_owned);
+        of_contacts.map(|(name, _)| name).chain(others).collect()
+    }
+
+    /// The row of one of [`SystemStudy::row_names`]; a point before the row of a contact, if they have one name.
+    pub fn row_named(&self, name: &str) -> Option<Vec<f64>> {
+        let of_contacts = || {
+            let mut rows = self.system().contacts.iter().flat_map(setup::rows_of);
+            rows.find(|(known, _)| known == name).map(|(_, row)| row.clone())
+        };
+        self.kind().basis.named(name).or_else(of_contacts)
+    }
+
     /// The displacement that a response measures, a row over the coordinates or states: `system.observe`, or the tangent of
     /// the first contact that has one.
     pub fn observe(&self) -> Vec<f64> {

@@ -54,12 +54,14 @@ pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup
     let initial = initial::read(reader, table, basis, first_order);
     let (units, named, response) =
         (equations.units, equations.named.clone(), equations.response.clone());
+    let basis = equations.basis.clone();
     let (warnings, actuator) = (equations.warnings.clone(), equations.actuator.clone());
     let (system, sizes) = equations.assembled(reader)?;
     let System { structure, contacts, .. } = &system;
     let observe = observe.ok()?.unwrap_or_else(|| initial::default_row(contacts, structure));
     Some(SystemSetup {
         system: Arc::new(system),
+        basis,
         observe,
         initial: initial?,
         units,

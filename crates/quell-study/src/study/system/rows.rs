@@ -11,7 +11,7 @@ use crate::study::reader::{Reader, WantedNumber};
 
 /// The names over which rows are written.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct RowBasis {
+pub(in crate::study) struct RowBasis {
     /// Names of the coordinates or states: an array has one number for each.
     pub(super) names: Vec<String>,
     /// What a name is.
@@ -157,6 +157,18 @@ impl RowBasis {
             }
         }
         right
+    }
+
+    /// The row of a name; `None` of a name that is none.
+    pub(super) fn named(&self, name: &str) -> Option<Vec<f64>> {
+        Some(match self.find(name)? {
+            Target::Point(row) => row.to_vec(),
+            Target::Coordinate(index) => {
+                let mut row = vec![0.0; self.names.len()];
+                row[index] = 1.0;
+                row
+            }
+        })
     }
 
     fn find(&self, name: &str) -> Option<Target<'_>> {

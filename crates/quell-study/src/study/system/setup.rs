@@ -5,11 +5,12 @@ use std::sync::Arc;
 use quell_design::actuator::Actuator;
 use quell_input::document::Table;
 use quell_input::frequency_response::FrequencyResponse;
-use quell_model::System;
 use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::units::UnitSystem;
+use quell_model::{Contact, System};
 
 use super::initial::SystemStart;
+use super::rows::RowBasis;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
 use crate::study::path;
@@ -20,6 +21,8 @@ use crate::study::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, Sized
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemSetup {
     pub(in crate::study) system: Arc<System>,
+    /// The names over which its rows are written.
+    pub(in crate::study) basis: Arc<RowBasis>,
     pub(in crate::study) observe: Vec<f64>,
     pub(in crate::study) initial: SystemStart,
     pub(in crate::study) units: UnitSystem,
@@ -64,8 +67,10 @@ impl SystemSetup {
 
     /// A system in these units, observed by a row over its coordinates, whose runs begin at rest.
     pub(in crate::study) fn of(system: System, units: UnitSystem, observe: Vec<f64>) -> Self {
+        let names = system.structure.names().to_vec();
         Self {
             system: Arc::new(system),
+            basis: Arc::new(RowBasis::of(names, "coordinate")),
             observe,
             initial: SystemStart::Rest,
             units,
@@ -124,4 +129,11 @@ impl SystemSetup {
         let factor = if in_si { self.units.si_per_unit(DITHER_AMPLITUDE.quantity)? } else { 1.0 };
         Some(wave.amplitude * of_unit * factor)
     }
+}
+
+/// The rows of a contact with their names.
+pub(super) fn rows_of(contact: &Contact) -> impl Iterator<Item = (String, &Vec<f64>)> {
+    let rows = [("tangent", &contact.tangent), ("normal", &contact.normal)];
+    rows.into_iter()
+        .filter_map(|(name, row)| Some((format!("{}.{name}", contact.name), row.as_ref()?)))
 }

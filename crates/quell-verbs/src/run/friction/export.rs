@@ -44,6 +44,8 @@ pub struct FrictionExport {
     pub decay: ExponentialDecay,
     /// The model of Simscape.
     pub translational: TranslationalFriction,
+    /// The coefficient at rest over that of the table there; 1 under dither.
+    pub peak: f64,
     /// The largest fast slip velocity, where a dither is averaged.
     pub fast_velocity: Option<f64>,
     /// Warnings about the averages.
@@ -85,7 +87,11 @@ pub fn run(study: &SystemStudy, done: &ContactCurves) -> Result<FrictionExport, 
         ));
     }
     let normal_load = found.normal_load;
-    Ok(FrictionExport { normal_load, table, decay, translational, fast_velocity, warnings })
+    let peak = match fast_velocity {
+        None if sliding > 0.0 => (level / sliding).max(1.0),
+        _ => 1.0,
+    };
+    Ok(FrictionExport { normal_load, table, decay, translational, peak, fast_velocity, warnings })
 }
 
 /// Slip speeds from 0 to `fastest`, and the averaged coefficients.

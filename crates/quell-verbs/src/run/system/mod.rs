@@ -8,6 +8,7 @@ pub mod modes;
 pub mod of_runs;
 pub mod periods;
 pub mod reach;
+pub mod receptance;
 pub mod start;
 pub mod tracked;
 pub mod validity;

@@ -1,7 +1,8 @@
-//! Averaged friction as files of other programs: Abaqus (`.inp`) and MATLAB with Simscape (`.m`).
+//! Averaged friction as files of other programs: Abaqus (`.inp`), MATLAB with Simscape (`.m`) and Modelica (`.mo`).
 
 mod abaqus;
 mod comments;
+mod modelica;
 mod simscape;
 
 use self::comments::ExportUnits;
@@ -9,7 +10,7 @@ use crate::run::friction::export::FrictionExport;
 use crate::study::SystemStudy;
 
 /// Extensions of these files.
-pub const EXTENSIONS: &[&str] = &["inp", "m"];
+pub const EXTENSIONS: &[&str] = &["inp", "m", "mo"];
 
 /// The text of a file with this extension, one of [`EXTENSIONS`].
 pub(super) fn text(
@@ -20,6 +21,7 @@ pub(super) fn text(
     let units = ExportUnits::of(study);
     match extension {
         "inp" => Some(abaqus::text(study, export, &units)),
+        "mo" => Some(modelica::text(study, export, &units)),
         "m" => Some(simscape::text(study, export, &units)),
         _ => None,
     }

@@ -4,6 +4,7 @@ mod exact;
 mod measured;
 mod modes;
 mod reach;
+mod receptance;
 mod tracked;
 
 use std::fmt::Write as _;
