@@ -16,15 +16,18 @@ use quell_model::System;
 use quell_model::system::{Contact, Structure};
 use quell_numerics::matrix::Matrix;
 
-/// Shares below this are left to rounding: the products of which sums are made keep half of their digits.
+/// Shares below this are left to rounding.
 const ROUNDING: f64 = 1e-14;
+
+/// Relative errors below this are not known: the products of which they are made keep half of their digits.
+const KNOWN: f64 = 1e-8;
 
 /// Contacts that stand for all of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quadrature {
     /// Places among the contacts of the system, ascending, each with the factor of its load, stiffnesses and damping.
     pub kept: Vec<(usize, f64)>,
-    /// Root mean square of the relative errors of the sums.
+    /// Root mean square of the relative errors of the sums, at least 10⁻⁸, below which it is not known.
     pub error: f64,
 }
 
@@ -122,7 +125,7 @@ fn least_squares(gram: &Matrix, most: usize, error: f64) -> (Vec<(usize, f64)>, 
     let distance = |weights: &[f64]| {
         let apart = |a: usize| weights[a] - 1.0;
         let along = |a: usize| (0..count).map(|b| gram[(a, b)] * apart(b)).sum::<f64>() * apart(a);
-        (0..count).map(along).sum::<f64>().max(0.0).sqrt()
+        (0..count).map(along).sum::<f64>().max(KNOWN * KNOWN).sqrt()
     };
     let mut weights = vec![0.0; count];
     let mut active: Vec<usize> = Vec::new();

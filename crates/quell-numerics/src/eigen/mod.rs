@@ -243,7 +243,8 @@ impl Decomposition {
             self.reflectors.reduce_vector(&mut inside.re);
             inside
         });
-        let solved = with_fused_multiply_add(Solved { of: self, shift, right: reduced.collect() });
+        let solved =
+            with_fused_multiply_add(SolvedColumns { of: self, shift, right: reduced.collect() });
         let one = Complex64::new(1.0, 0.0);
         let outside: Vec<Vec<Complex64>> =
             solved.into_iter().map(|x| self.outside(x, |scale| scale, one)).collect();
@@ -306,13 +307,13 @@ impl Work for Vectors<'_> {
     }
 }
 
-struct Solved<'a> {
+struct SolvedColumns<'a> {
     of: &'a Decomposition,
     shift: Complex64,
     right: Vec<Split>,
 }
 
-impl Work for Solved<'_> {
+impl Work for SolvedColumns<'_> {
     type Output = Vec<Split>;
 
     #[inline(always)]

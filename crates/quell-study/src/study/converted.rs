@@ -76,9 +76,10 @@ impl Study {
         let document = match self.kind() {
             Kind::Belt(setup) => Ok(converted.mass(setup)),
             Kind::Disc(setup) => converted.plate(setup, self.varies_by()),
-            Kind::System(_) => {
-                Err(refused("system", "a study of a belt or a disc: this one is a system already"))
-            }
+            Kind::System(_) => Err(refused(
+                "system",
+                "a study of a belt or a disc: this one is a system already, of which only the contacts can be replaced by fewer",
+            )),
         }?;
         let left_out = converted.left_out;
         let study = Self::parse_with(&document.to_toml(), &[], &self.source.files)?;

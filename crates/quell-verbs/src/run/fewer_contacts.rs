@@ -137,8 +137,9 @@ impl FewerContacts {
             [Err(why), _] | [_, Err(why)] => format!("growth rates are not compared: {why}"),
         };
         format!(
-            "{} stand for {before}, with a relative error of {} in the sums over their surfaces; {change}.",
+            "{} stand{} for {before}, with a relative error of {} in the sums over their surfaces; {change}.",
             counted(now, "contact"),
+            if now == 1 { "s" } else { "" },
             digits(self.error)
         )
     }

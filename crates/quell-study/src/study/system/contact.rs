@@ -217,7 +217,8 @@ fn one(
     let (stiffness, damping) = (number(CONTACT_NORMAL_STIFFNESS), number(CONTACT_NORMAL_DAMPING));
     let spring = number(CONTACT_TANGENTIAL_STIFFNESS);
     // Of a number that is wrong nothing more is said.
-    if !modulated && stiffness.is_some() && damping.is_some() {
+    let has_normal = normal.is_some() || table.has("normal");
+    if !modulated && !has_normal && stiffness.is_some() && damping.is_some() {
         without_normal(reader, table, prefix, &["normal_stiffness", "normal_damping"]);
     }
     let known = load.as_ref().and_then(Option::as_ref).map(|load| load.value(0.0));
@@ -344,10 +345,9 @@ fn row(
 
 /// Reports stiffness and damping of a contact without a normal row.
 fn without_normal(reader: &mut Reader, table: &Table, prefix: &str, names: &[&str]) {
-    let has_normal = table.has("normal");
     for (name, node) in table.iter() {
         let compliant = names.iter().any(|known| name.starts_with(known));
-        if compliant && !has_normal && node.value != Value::Number(0.0) {
+        if compliant && node.value != Value::Number(0.0) {
             let key = join(prefix, name);
             let allowed = format!(
                 "requires the row {}, or a dither of the load (direction = \"normal\"), whose actuator acts through it: without them the \

@@ -159,7 +159,7 @@ impl RowBasis {
         right
     }
 
-    /// The row of a name; `None` of a name that is none.
+    /// The row of a name, if there is one.
     pub(super) fn named(&self, name: &str) -> Option<Vec<f64>> {
         Some(match self.find(name)? {
             Target::Point(row) => row.to_vec(),

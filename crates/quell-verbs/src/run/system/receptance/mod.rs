@@ -1,7 +1,7 @@
 //! `receptance`: displacement over force between rows of a system, over frequency, as a modal test measures it.
 //!
 //! The contacts slide, with friction carried along and averaged over a dither, as in `stability`; or they are springs without friction, as
-//! in `modes`; or there are none, as in a test of the structure alone and in the file of a study with `frequency_response`.
+//! in `modes`; or they are left out, as in a test of the structure alone and in the file of a study with `frequency_response`.
 
 mod answer;
 
