@@ -320,7 +320,7 @@ def test_complex_modes_are_written_and_read_again(tmp_path: Path) -> None:
 
 
 def test_receptances_go_out_and_come_back(tmp_path: Path) -> None:
-    hertz, ratio = [300.0, 1250.0, 1800.0], 1e-4
+    hertz, ratio = [300.0, 1250.0, 1800.0], 0.01
     shapes = [[complex(x * (1 + place) ** number) for place, x in enumerate(SHAPE)] for number in range(3)]
     modes = [mode_2414(number + 1, value, 2.0, shape) for number, (value, shape) in enumerate(zip(hertz, shapes, strict=True))]
     first, second = f"n{NODES[0]}_x", f"n{NODES[1]}_y"
@@ -328,10 +328,10 @@ def test_receptances_go_out_and_come_back(tmp_path: Path) -> None:
     study = quell.from_universal_file(write(tmp_path / "m.unv", *modes), damping_ratio=ratio, units="SI", contact=contact)
     found = study.receptance(outputs=[first, second], inputs=first, contacts="none")
     assert found.receptance.shape == (2, 1, found.points) and found.outputs == [first, second]
-    # Resonances with a half-width of 0.03 Hz are resolved.
+    # Resonances are resolved: one with a half-width of 3 Hz has 21 frequencies of its own.
     peaks = np.abs(found.receptance[0, 0])
-    near = np.abs(found.frequency / (2 * np.pi * 300.0) - 1.0) < 1e-4
-    assert near.sum() >= 15 and peaks[near].max() == peaks.max()
+    near = np.abs(found.frequency / (2 * np.pi * 300.0) - 1.0) < 14 * ratio
+    assert near.sum() >= 21 and peaks[near].max() == peaks.max()
     path = found.to_universal_file(tmp_path / "out.unv")
     with pytest.raises(quell.StudyError, match="a new file"):
         found.to_universal_file(path)
@@ -352,7 +352,7 @@ def test_receptances_go_out_and_come_back(tmp_path: Path) -> None:
 
 def test_receptances_are_read_by_pyuff(tmp_path: Path) -> None:
     pyuff = pytest.importorskip("pyuff")
-    belt = quell.load(Path(__file__).parents[3] / "studies" / "brake-si.toml")
+    belt = quell.load(Path(__file__).parents[3] / "studies" / "squealing-pad-si.toml")
     found = belt.receptance(frequency=("1Hz", "3kHz"), points=50)
     one = pyuff.UFF(found.to_universal_file(tmp_path / "belt.unv")).read_sets()[-1]
     assert (one["func_type"], one["ordinate_spec_data_type"], one["orddenom_spec_data_type"]) == (4, 8, 13)
@@ -373,9 +373,10 @@ def test_few_contacts_stand_for_a_surface() -> None:
         coordinates=names, mass=[1.0, 1.0, 0.1], stiffness=[2000.0, 1000.0, 300.0], damping=[0.2, 0.2, 0.02],
         contact=contacts, friction=quell.Coulomb(coefficient=0.4),
     )  # fmt: skip
-    with pytest.warns(UserWarning, match="stand for 21"):
+    with pytest.warns(UserWarning) as said:
         few = study.convert(contacts=6)
-    assert len(few.contact) <= 6
+    assert any("stand for 21" in str(one.message) for one in said)
+    assert len(few.contacts) <= 6
     assert few.stability().growth_rate == pytest.approx(study.stability().growth_rate, abs=1e-5)
     with pytest.raises(quell.StudyError, match="error"):
         study.convert(error=1e-3)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from ._checked import CheckedStudy
     from ._quell import NativeAnswer
     from ._study import Study
 
@@ -77,7 +78,7 @@ class Result(Frozen):
     """The result in one or two sentences, if the verb has them."""
 
     @classmethod
-    def _of(cls: type[Self], study: Study | None, native: NativeAnswer | None) -> Self:
+    def _of(cls: type[Self], study: CheckedStudy | None, native: NativeAnswer | None) -> Self:
         """The result of a verb; fits of laws have no study."""
         made: Self = object.__new__(cls)
         made._keep(study=study, _native=native, _facts=None, _arrays=None, _description=None)
