@@ -74,20 +74,22 @@ impl Unfinished {
 
     /// Writes the complete file of a key in `root`, and creates missing folders.
     pub(super) fn write(&self, root: &Folder, key: &str, bytes: &[u8]) -> io::Result<()> {
-        let mut attempt = 1;
-        loop {
-            let put = |temporary: &str| {
-                let (folder, name) = root.made_for(key)?;
-                self.folder.rename(temporary, &folder, name)
-            };
-            match self.settle(bytes, put) {
-                // Another process considered the unfinished file abandoned and removed it.
-                Err(error) if error.kind() == io::ErrorKind::NotFound && attempt < ATTEMPTS => {
-                    attempt += 1;
-                }
+        self.settle_again(bytes, |temporary| {
+            let (folder, name) = root.made_for(key)?;
+            self.folder.rename(temporary, &folder, name)
+        })
+    }
+
+    /// Writes an unfinished file and moves it to its final path, again where another process considered it abandoned and
+    /// removed it.
+    fn settle_again(&self, bytes: &[u8], place: impl Fn(&str) -> io::Result<()>) -> io::Result<()> {
+        for _ in 1..ATTEMPTS {
+            match self.settle(bytes, &place) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
                 written => return written,
             }
         }
+        self.settle(bytes, &place)
     }
 
     /// Writes a complete file in a folder unless a file of that name exists; returns whether it was written. Of several
@@ -189,30 +191,29 @@ mod tests {
         assert_eq!(fs::read_dir(place.path()).expect("a folder").count(), 1);
     }
 
+    /// Writes a file whose unfinished form is removed this number of times; returns the file, if there is one.
+    fn written_despite(removals: u64) -> io::Result<Vec<u8>> {
+        let place = tempfile::tempdir()?;
+        let root = Folder::open(place.path())?;
+        let unfinished = Unfinished::new(root.made("unfinished")?);
+        let (removed, bytes) = (AtomicU64::new(0), [7; 4096]);
+        let written = unfinished.settle_again(&bytes, |temporary| {
+            if removed.fetch_add(1, Ordering::Relaxed) < removals {
+                unfinished.folder.remove(temporary)?;
+            }
+            unfinished.folder.rename(temporary, &root, "target")
+        });
+        assert_eq!(fs::read_dir(place.path().join("unfinished"))?.count(), 0, "files are left");
+        written.and_then(|()| fs::read(place.path().join("target")))
+    }
+
     #[test]
     fn a_writer_recovers_when_its_unfinished_file_is_removed() {
-        let place = tempfile::tempdir().expect("a folder");
-        let root = Folder::open(place.path()).expect("a folder");
-        let unfinished = Unfinished::new(root.made("unfinished").expect("a folder"));
-        let (folder, target) = (place.path().join("unfinished"), place.path().join("target"));
-        let stop = std::sync::atomic::AtomicBool::new(false);
-        std::thread::scope(|scope| {
-            scope.spawn(|| {
-                while !stop.load(Ordering::Relaxed) {
-                    if let Ok(entries) = fs::read_dir(&folder) {
-                        for entry in entries.flatten().take(1) {
-                            let _ = fs::remove_file(entry.path());
-                        }
-                    }
-                    std::thread::sleep(Duration::from_millis(1));
-                }
-            });
-            let written: Vec<io::Result<()>> = (0..50)
-                .map(|number| unfinished.write(&root, "target", &vec![number; 1 << 16]))
-                .collect();
-            stop.store(true, Ordering::Relaxed);
-            assert!(written.iter().filter(|written| written.is_ok()).count() > 40, "{written:?}");
-        });
-        assert_eq!(fs::read(&target).expect("a file").len(), 1 << 16);
+        let most = u64::from(ATTEMPTS) - 1;
+        for removals in 0..=most {
+            assert_eq!(written_despite(removals).expect("it is written again"), [7; 4096]);
+        }
+        let lost = written_despite(most + 1).expect_err("removed at every attempt");
+        assert_eq!(lost.kind(), io::ErrorKind::NotFound);
     }
 }
