@@ -25,8 +25,8 @@ pub const LARGEST: u64 = 16;
 const FORMATS: &[(&[u8], &str)] = &[
     (
         b"\x93NUMPY",
-        "this file is a NumPy array: np.savetxt(\"data.csv\", np.load(\"data.npy\"), delimiter=\",\", header=\"…\", comments=\"\") writes it \
-         as CSV with the names of its columns as header",
+        "this file is a NumPy array: np.savetxt(\"data.csv\", np.column_stack([np.load(f\"{name}.npy\").ravel() for name in names]), \
+         delimiter=\",\", header=\",\".join(names), comments=\"\") with names = [\"time\", \"velocity\", …] writes one column of CSV for each file",
     ),
     (b"\xd0\xcf\x11\xe0", WORKBOOK),
     (
@@ -49,7 +49,7 @@ const FORMATS: &[(&[u8], &str)] = &[
 ];
 
 /// How a workbook becomes text.
-const WORKBOOK: &str = "this file is a workbook of Excel: pandas.read_excel(\"data.xlsx\").to_csv(\"data.csv\", index=False) writes its first sheet as CSV";
+const WORKBOOK: &str = "this file is a workbook of Excel: pandas.read_excel(\"data.xlsx\", sheet_name=0).to_csv(\"data.csv\", index=False) writes its first sheet as CSV, and sheet_name=\"NAME\" another one";
 
 /// How an archive of NumPy arrays becomes text.
 const ARRAYS: &str = "this file is an archive of NumPy arrays: pandas.DataFrame(dict(np.load(\"data.npz\"))).to_csv(\"data.csv\", index=False) writes arrays of \

@@ -124,11 +124,13 @@ fn shape(cell: &str) -> Option<NumberShape> {
     }
 }
 
-/// The cells of a line. In quotes a separator is part of a cell.
+/// The cells of a line. In quotes a separator is part of a cell; commas that a spreadsheet adds at the end of a line with another separator are
+/// none.
 pub fn cells(line: &str, separator: char) -> Vec<&str> {
     if separator == ' ' {
         return line.split_whitespace().map(unquoted).collect();
     }
+    let line = if separator == ',' { line } else { line.trim_end_matches(',') };
     let mut quoted = false;
     let split = line.split(|c: char| {
         quoted ^= c == '"';

@@ -108,7 +108,8 @@ impl fmt::Display for WrongFriction {
         match self {
             Self::NoVelocity(has) => write!(
                 f,
-                "{WHAT} with a column slip_velocity, or one that --columns slip_velocity=NAME names; it has {has}"
+                "{WHAT} with a column slip_velocity, or one that --columns slip_velocity=NAME names; of a record of friction over time \
+                 --columns time=NAME,friction_force=NAME gives the levels; it has {has}"
             ),
             Self::OverTime(record) => record.fmt(f),
             Self::NoFriction(has) => write!(
@@ -678,6 +679,11 @@ mod tests {
         assert!(said.contains("columns 2 and 3 have the same"), "{said}");
         // A comma at the end of a line adds nothing.
         assert!(read("end", "slip_velocity,coefficient\n1,0.4,\n2,0.3,\n").is_ok());
+        let saved = "Trigger:;1,,\nslip_velocity;coefficient,,\n1;0.4,,\n2;0.3,,\n";
+        assert_eq!(read("saved", saved).map(|data| data.points().len()), Ok(2));
+        let noted = saved.replace("0.4,,", "40,,was 0.4");
+        let said = read("noted", &noted).expect_err("a note").to_string();
+        assert!(said.contains("line 3, coefficient: \"40,,was 0.4\""), "{said}");
     }
 
     #[test]

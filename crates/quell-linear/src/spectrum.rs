@@ -39,10 +39,10 @@ impl SmallMotion {
         self.eigenvalue.im.abs()
     }
 
-    /// −Re λ/|λ|; 0 for λ = 0.
+    /// −Re λ/|λ|; 0 for Re λ = 0, never −0.
     pub fn damping_ratio(&self) -> f64 {
         let size = quell_numerics::polar::modulus(self.eigenvalue);
-        if size > 0.0 { -self.eigenvalue.re / size } else { 0.0 }
+        if size > 0.0 { 0.0 - self.eigenvalue.re / size } else { 0.0 }
     }
 }
 

@@ -147,6 +147,7 @@ def test_subcases_of_matrices(tmp_path: Path) -> None:
         (["$ nothing"], "no table of results and no DMIG"),
         (["1     N A S T R A N   F 0 6"], "a listing of Nastran"),
         (["SOL 103", "BEGIN BULK"], "an input file of Nastran"),
+        (["$---- COLUMN NUMBERS ----", "$ FOR EXTERNAL SUPERELEMENT 111", "BEGIN SUPER 111"], "superelement of Nastran, which holds no matrices"),
     ],
 )
 def test_wrong_matrices_are_refused_by_name(lines: list[str], words: str, tmp_path: Path) -> None:

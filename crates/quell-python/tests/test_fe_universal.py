@@ -97,7 +97,7 @@ def test_complex_modes_become_real_ones(end: str, tmp_path: Path) -> None:
         assert mode.given["modal_mass"] == pytest.approx(3.0, rel=1e-5)
         assert [mode.given["shape"][name] for name in names] == pytest.approx(SHAPE, abs=2e-5)
     kept, left = found.notes
-    assert "mode 1 (line 9): 1; mode 2 (line" in kept and "below 0.95: mode 3 (line" in left
+    assert "mode 1 (line 9): 1.0000; mode 2 (line" in kept and "below 0.95: mode 3 (line" in left
     # (Σ|a|² − Σ|b|²)²/(Σ|a|² + Σ|b|²)² of two parts at a right angle.
     sizes = [sum(x * x for x in SHAPE[:3]), sum(x * x for x in SHAPE[3:])]
     assert f": {((sizes[0] - sizes[1]) / sum(sizes)) ** 2:.3g}." in left

@@ -39,6 +39,10 @@ const SYMBOLS: &[Symbol] = &[
     ("Nm", 0, [1.0, 1.0], [1, 2, -2, 0, 0], true),
     ("Ns", 0, [1.0, 1.0], [1, 1, -1, 0, 0], true),
     ("Pa", 0, [1.0, 1.0], [1, -1, -2, 0, 0], true),
+    // The international inch and foot, and the pound-force: the avoirdupois pound under standard gravity. "Pound" alone is a mass or a force.
+    ("in", -4, [254.0, 1.0], [0, 1, 0, 0, 0], false),
+    ("ft", -4, [3048.0, 1.0], [0, 1, 0, 0, 0], false),
+    ("lbf", -13, [44_482_216_152_605.0, 1.0], [1, 1, -2, 0, 0], false),
     ("W", 0, [1.0, 1.0], [1, 2, -3, 0, 0], true),
     ("Hz", 0, [1.0, 1.0], [0, 0, -1, 0, 0], true),
     ("rpm", 0, [1.0, 60.0], [0, 0, -1, 0, 0], false),
@@ -296,6 +300,9 @@ mod tests {
             ("0.1", "N", 0.1),
             ("1e3", "Hz", 1e3),
             ("3 cm", "m", 0.03),
+            ("2 lbf", "N", 8.896_443_230_521),
+            ("4 in/s", "m/s", 0.101_6),
+            ("100 lbf/in", "N/m", 17_512.683_524_647_636),
         ] {
             assert_eq!(read(text, Some(wanted)), Ok(value), "{text} in {wanted}");
         }

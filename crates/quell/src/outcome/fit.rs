@@ -282,6 +282,10 @@ fn warnings(done: &FrictionFit) -> Vec<String> {
     warnings
 }
 
+/// Why the residuals of a record over time have a pattern.
+const OVER_TIME: &str = "The file is a record over time: friction may depend on its past or on backlash of the drive, and laws with a state, such as \
+                         LuGre friction, are not fitted to a record";
+
 fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
     match finding {
         FitFinding::Uncertain { key, value, error } => format!(
@@ -341,19 +345,21 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
             "the residuals have {runs} run{} of equal sign over the slip speed where {expected:.1} are expected: the law does \
              not have the shape of the data, and standard errors, where they are given, are too small. {}",
             if *runs == 1 { "" } else { "s" },
-            if done.compares_all() && done.data.has_times() {
-                "Every law has been compared. The file is a record over time: friction may depend on its past, and laws with a state, such as \
-                 LuGre friction, are not fitted to a record"
-            } else if done.compares_all() {
-                "Every law has been compared: check whether friction in the data depends on more than the slip velocity"
-            } else {
-                "Compare laws with --law all"
+            match (done.compares_all(), done.data.has_times()) {
+                (true, true) => format!("Every law has been compared. {OVER_TIME}"),
+                (true, false) =>
+                    "Every law has been compared: check whether friction in the data depends on more than the slip velocity, such as its past, \
+                     temperature, or backlash of the drive"
+                        .to_owned(),
+                (false, true) => format!("{OVER_TIME}. Compare laws of the slip velocity with --law all"),
+                (false, false) => "Compare laws with --law all".to_owned(),
             }
         ),
         FitFinding::Directions { difference } => format!(
             "friction differs between the two directions of slip, by {} on average, but laws are equal in both: fit each \
-             direction in a file of its own",
-            quell_model::digits::digits(*difference, 2)
+             direction in a {} of its own",
+            quell_model::digits::digits(*difference, 2),
+            if done.data.folder().is_some() { "folder" } else { "file" }
         ),
     }
 }

@@ -170,6 +170,7 @@ def nothing(blocks: list[Block], path: str | os.PathLike[str]) -> Complaint:
 
 
 OTHERS = {
+    "EXTERNAL SUPERELEMENT": "the bulk data of a superelement of Nastran, which holds no matrices",
     "N A S T R A N": "a listing of Nastran (f06)",
     "BEGIN BULK": "an input file of Nastran",
     "GRID,": "an input file of Nastran",

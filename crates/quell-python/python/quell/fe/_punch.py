@@ -72,7 +72,8 @@ def blocks_of(lines: Iterable[tuple[int, str]], refuse: Refusal, wanted: tuple[s
     for number, line in lines:
         # Columns 73 to 80 count the lines.
         line = line[:72].rstrip()
-        if line.startswith("$ "):
+        if line.startswith("$") and not line[1:2].isalpha():
+            # A comment: names of tables and of their keys begin at once.
             continue
         if line.startswith("$"):
             in_bulk = False

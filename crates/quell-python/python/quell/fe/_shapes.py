@@ -64,7 +64,7 @@ def real_modes(modes: list[ComplexMode], limit: float, has_mass: bool) -> tuple[
             allowed = f"{mode.where} grows without friction: λ = {mode.eigenvalue:.6g}; modes must decay"
             raise StudyError([complaint("path", None, allowed, "path")])
         shape, angle, collinearity = rotated(mode.shape)
-        words = f"{mode.where}: {collinearity:.3g}"
+        words = f"{mode.where}: {collinearity:.4f}"
         if collinearity < limit:
             left.append(words)
             continue

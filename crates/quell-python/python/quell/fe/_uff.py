@@ -17,10 +17,10 @@ NUMBERS = re.compile(rb"\s*[+-]?(?:\d+\.\d*[+-]\d{3}(?![\d.])|(?:\d+\.?\d*|\.\d+
 """A number of a line; numbers of 13 characters need no space between them, and exponents of three digits no E."""
 
 CONTENTS = {
-    15: "nodes", 55: "results at nodes", 56: "results of elements", 57: "results of elements", 58: "functions", 82: "trace lines",
+    15: "nodes", 18: "coordinate systems", 55: "results at nodes", 56: "results of elements", 57: "results of elements", 58: "functions", 82: "trace lines",
     151: "header", 164: "units", 780: "elements", 781: "nodes", 2400: "model", 2411: "nodes", 2412: "elements", 2414: "results",
     2417: "groups", 2420: "coordinate systems", 2429: "groups", 2430: "groups", 2432: "groups", 2435: "groups", 2452: "groups",
-    2467: "groups", 2477: "groups",
+    2467: "groups", 2477: "groups", 1858: "qualifiers of functions",
 }  # fmt: skip
 """What data sets have."""
 

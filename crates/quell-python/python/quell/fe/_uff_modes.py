@@ -76,7 +76,8 @@ def result_of(one: DataSet, refuse: Refusal) -> Result:
     if len(first) < 6 or len(second) < 6:
         refuse(one.lines[11][0], one.text(11, refuse)[1], "six finite numbers, and six in the next line")
     reals = second if head[1] in COMPLEX and any(second) else [first[1], *first[3:6]]
-    name = one.text(1, refuse)[1].strip()
+    # Simcenter writes a key before the name.
+    name = one.text(1, refuse)[1].removeprefix("LOADCASE_NAME_KEY").strip()
     return Result(one.line, 2414, head[1], head[2], head[3], head[4] in COMPLEX_DATA, head[5], integers[5], reals, where, name, 13)
 
 

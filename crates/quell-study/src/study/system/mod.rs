@@ -94,9 +94,13 @@ impl SystemStudy {
 
     /// The names of rows over the coordinates: `CONTACT.tangent` and `CONTACT.normal` of the contacts, then points and coordinates.
     pub fn row_names(&self) -> Vec<String> {
-        let of_contacts = self.system().contacts.iter().flat_map(setup::rows_of);
         let others = self.kind().basis.candidates().into_iter().map(str::to_owned);
-        of_contacts.map(|(name, _)| name).chain(others).collect()
+        self.contact_row_names().chain(others).collect()
+    }
+
+    /// The names of the rows of the contacts.
+    pub fn contact_row_names(&self) -> impl Iterator<Item = String> {
+        self.system().contacts.iter().flat_map(setup::rows_of).map(|(name, _)| name)
     }
 
     /// The row of one of [`SystemStudy::row_names`]; a point before the row of a contact, if they have one name.

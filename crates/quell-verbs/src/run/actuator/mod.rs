@@ -110,7 +110,7 @@ pub fn run(study: &SystemStudy, range: Option<RealInterval>) -> Result<ActuatorF
     };
     let slow = slowest_to_decay(&found);
     let range = range.unwrap_or_else(|| default_range(actuator, wave, slow));
-    let range = checked_frequencies(range)?;
+    let range = checked_frequencies(range, false)?;
     let resonances: Vec<f64> = oscillating(&found).map(SmallMotion::frequency).collect();
     let special = resonances.iter().chain(actuator.measured_frequencies()).chain([&wave.frequency]);
     let frequencies = sampled(range, special.copied());

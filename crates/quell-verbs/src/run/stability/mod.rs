@@ -12,11 +12,11 @@ pub use one_mass::{LOOKED_AT, LimitStability, NoStableAmplitude, OneMassStabilit
 
 use quell_dynamics::orbit::NoSlidingVerdict;
 use quell_linear::averaging::{
-    AveragingError, Becomes, CriticalInput, CrossingKind, DitheredContact, DitheredSystem,
+    AveragedSliding, AveragingError, Becomes, CriticalInput, CrossingKind, DitheredContact, DitheredSystem,
 };
 use quell_linear::growth::{Growth, Verdict};
-use quell_linear::linearised::Linearised;
-use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
+use quell_linear::linearised::{FrictionSlopes, Linearised};
+use quell_linear::spectrum::{MotionSpectrum, SmallMotion, growth, spectrum};
 use quell_model::System;
 use quell_model::profile::Wave;
 use quell_model::units::Quantity;
@@ -28,8 +28,7 @@ use crate::range::outside_of_laws;
 use crate::run::system::modes::natural;
 use crate::run::system::validity::{condition, opened, opening};
 use crate::run::system::{
-    failed, force, has_equations, in_units, not_averaged, oscillating, rate_of, upper,
-    velocity_in_words,
+    failed, force, has_equations, in_units, oscillating, rate_of, upper, velocity_in_words,
 };
 use crate::study::{SystemStudy, UnitSystem};
 use crate::words::digits;
@@ -106,13 +105,12 @@ pub fn run(study: &SystemStudy) -> Result<SlidingStability, Failure> {
     if !system.is_dithered() {
         let (spectrum, contacts, slope) = undithered.map_err(|why| failed("stability", why))?;
         let one_mass = OneMassStability::of(system, slope);
-        let words = |speed| velocity_in_words(study, speed);
-        warnings.extend(outside_of_laws(system, words, None));
+        warnings.extend(of_sliding(study));
         warnings.extend(one_mass.iter().flat_map(|one| one.warnings(study)));
         return Ok(SlidingStability { spectrum, contacts, dither: None, one_mass, warnings });
     }
-    let prepared = DitheredSystem::new(system).map_err(not_averaged)?;
-    let average = prepared.average().map_err(not_averaged)?;
+    let prepared = DitheredSystem::new(system).map_err(|why| failed("stability", why))?;
+    let average = prepared.average().map_err(|why| failed("stability", why))?;
     let spectrum = average.spectrum().map_err(|why| failed("stability", why))?;
     let critical = prepared.critical_amplitudes(0);
     let contacts: Vec<SlidingContact> = average
@@ -148,6 +146,58 @@ fn undithered(
     });
     let slope = friction.first().map_or(0.0, |friction| friction.by_velocity);
     Ok((found, contacts.collect(), slope))
+}
+
+/// Warnings about sliding without dither.
+fn of_sliding(study: &SystemStudy) -> Vec<String> {
+    outside_of_laws(study.system(), |speed| velocity_in_words(study, speed), None)
+}
+
+/// Warnings about sliding that is averaged over a dither; `slow` has its small motions.
+fn of_average(
+    study: &SystemStudy,
+    average: &[DitheredContact],
+    slow: &MotionSpectrum,
+) -> Vec<String> {
+    let system = study.system();
+    let words = |speed| velocity_in_words(study, speed);
+    let mut warnings = outside_of_laws(system, words, Some(average));
+    warnings.extend(opened(study.units(), system, average));
+    warnings.extend(not_slow(study, slow));
+    warnings.extend(few_lines(system));
+    warnings.extend(normal_noise(system));
+    warnings.extend(contact_state::averaged_without_states(system, average));
+    warnings
+}
+
+/// The equations of small motions about sliding, averaged over a dither, with their verdict and its warnings: those of `stability`.
+pub(in crate::run) struct SlidingEquations {
+    pub(in crate::run) linear: Linearised,
+    pub(in crate::run) friction: Vec<FrictionSlopes>,
+    pub(in crate::run) verdict: Verdict,
+    pub(in crate::run) warnings: Vec<String>,
+}
+
+impl SlidingEquations {
+    /// Those of a study, for a verb.
+    pub(in crate::run) fn new(study: &SystemStudy, verb: &str) -> Result<Self, Failure> {
+        let system = study.system();
+        if !system.is_dithered() {
+            let linear = Linearised::new(system).map_err(|why| failed(verb, why))?;
+            let friction = linear.friction();
+            let growth = growth(&linear, &friction).map_err(|why| failed(verb, why))?;
+            let (verdict, warnings) = (growth.verdict(), of_sliding(study));
+            return Ok(Self { linear, friction, verdict, warnings });
+        }
+        let average = DitheredSystem::new(system).and_then(|prepared| prepared.average());
+        let AveragedSliding { linear, friction, contacts } =
+            average.map_err(|why| failed(verb, why))?;
+        let slow = spectrum(&linear, &friction).map_err(|why| failed(verb, why))?;
+        let without = undithered(system).map(|(without, ..)| without);
+        let warnings = of_average(study, &contacts, without.as_ref().unwrap_or(&slow));
+        let at_corner = contacts.iter().any(|contact| contact.one_sided);
+        Ok(Self { linear, friction, verdict: averaged_verdict(slow.growth, at_corner), warnings })
+    }
 }
 
 /// The warning about motions that are not much slower than the dither.
@@ -206,18 +256,11 @@ impl SlidingStability {
         study: &SystemStudy,
         average: &[DitheredContact],
     ) -> Vec<String> {
-        let system = study.system();
-        let words = |speed| velocity_in_words(study, speed);
-        let mut warnings = outside_of_laws(system, words, Some(average));
-        warnings.extend(opened(study.units(), system, average));
         let without = self.dither.as_ref().and_then(|dither| dither.undithered.as_ref().ok());
-        warnings.extend(not_slow(study, without.unwrap_or(&self.spectrum)));
+        let mut warnings = of_average(study, average, without.unwrap_or(&self.spectrum));
         warnings.extend(self.critical_beyond(study));
         warnings.extend(self.one_mass.iter().flat_map(|one| one.warnings(study)));
         warnings.extend(self.limit_apart());
-        warnings.extend(few_lines(system));
-        warnings.extend(normal_noise(system));
-        warnings.extend(contact_state::averaged_without_states(system, average));
         warnings
     }
 

@@ -13,7 +13,6 @@ pub mod start;
 pub mod tracked;
 pub mod validity;
 
-use quell_linear::averaging::AveragingError;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion};
 use quell_model::System;
 use quell_model::units::Quantity;
@@ -29,11 +28,6 @@ use crate::words::{digits, more_digits, unit_after};
 /// The failure of a verb with its reason.
 pub(in crate::run) fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
     Failure::Failed { key: verb.to_owned(), why: why.to_string().into() }
-}
-
-/// The failure of averaging.
-pub(crate) fn not_averaged(why: AveragingError) -> Failure {
-    failed("stability", why)
 }
 
 /// Rejects a study that does not meet the needs of a verb, and a measured frequency response, which has no equations.
@@ -68,17 +62,22 @@ pub fn oscillating(units: UnitSystem, frequency: f64) -> String {
     }
 }
 
-/// A range of angular frequencies of `--frequency`.
+/// A range of angular frequencies of `--frequency`, for a question that has an answer at frequency 0 or not.
 ///
 /// # Errors
-/// A complaint about a range that does not ascend from above 0.
+/// A complaint about a range that does not ascend, or begins below 0 or there.
 pub(crate) fn checked_frequencies(
     RealInterval { lower: from, upper: to }: RealInterval,
+    holds_at_rest: bool,
 ) -> Result<RealInterval, Failure> {
-    if from > 0.0 && to > from && to.is_finite() {
+    if (from > 0.0 || holds_at_rest && from == 0.0) && to > from && to.is_finite() {
         return Ok(RealInterval::new(from, to));
     }
-    let allowed = "two positive numbers, the second above the first";
+    let allowed = if holds_at_rest {
+        "two numbers, the first at least 0, the second above the first"
+    } else {
+        "two positive numbers, the second above the first"
+    };
     Err(Complaint::option("--frequency", format!("{from}:{to}"), allowed).into())
 }
 

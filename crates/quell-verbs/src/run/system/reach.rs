@@ -105,7 +105,7 @@ pub fn run(study: &SystemStudy, range: Option<RealInterval>) -> Result<Reaches, 
     let waves = system.waves();
     let own = waves.map(|wave| wave.frequency).fold(0.0, f64::max);
     let RealInterval { lower: from, upper: to } =
-        checked_frequencies(range.unwrap_or(RealInterval::new(0.1 * own, 10.0 * own)))?;
+        checked_frequencies(range.unwrap_or(RealInterval::new(0.1 * own, 10.0 * own)), false)?;
     // The quotient of the ends may overflow, their roots do not.
     let half = libm::log(libm::sqrt(to) / libm::sqrt(from));
     let share = |k: usize| k as f64 / (POINTS - 1) as f64;

@@ -9,7 +9,6 @@ pub use answer::unit;
 
 use num_complex::Complex64;
 use quell_input::nearest;
-use quell_linear::averaging::DitheredSystem;
 use quell_linear::growth::Verdict;
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::receptance::ReceptanceEquations;
@@ -19,24 +18,28 @@ use quell_numerics::interval::RealInterval;
 use quell_numerics::order::ascending_by;
 use quell_numerics::polar::modulus;
 
-use super::{failed, has_equations, not_averaged};
+use super::{checked_frequencies, failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::parallel::Parallel;
+use crate::run::stability::SlidingEquations;
 use crate::study::SystemStudy;
 
 /// Name of the verb.
 const VERB: &str = "receptance";
 
-/// Frequencies at equal distances, where the request does not say how many.
+/// Frequencies at equal distances, where the request does not say how many: enough for a smooth picture between the resonances, which have
+/// their own.
 const EVEN: usize = 401;
 
-/// Distances from a resonance in half its widths at which its peak is resolved, on either side.
+/// Distances from a resonance in half its widths at which its peak is resolved, on either side. Between neighbours the phase of one resonance
+/// turns by at most 15° and its size changes by at most a factor of 1.7: closer than a picture shows and the criterion of Nyquist needs. Chosen
+/// here; it changes which frequencies are listed, and no value.
 const AROUND: [f64; 11] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 13.0];
 
-/// Distances from an undamped resonance, in its frequency.
+/// Distances from an undamped resonance, in its frequency: it has no width, and no value at 0. Chosen here likewise.
 const AROUND_UNDAMPED: [f64; 4] = [1e-4, 3e-4, 1e-3, 3e-3];
 
-/// The default range ends at this multiple of the highest frequency of a motion.
+/// The default range ends at this multiple of the highest frequency of a motion, so that its resonance is seen whole. Chosen here likewise.
 const BEYOND: f64 = 1.25;
 
 /// Most names of outputs or of inputs.
@@ -68,18 +71,16 @@ impl ContactsAre {
     /// A complaint about another name.
     pub fn from_name(name: &str) -> Result<Self, Failure> {
         let known = Self::NAMES.iter().find(|(known, _)| *known == name);
-        let allowed = "sliding, springs or none";
-        let wrong = || Complaint::option("--contacts", name, allowed).into();
+        let wrong = || {
+            let names: Vec<&str> = Self::NAMES.iter().map(|(name, _)| *name).collect();
+            Complaint::option("--contacts", name, format!("one of {}", names.join(", "))).into()
+        };
         known.map(|(_, contacts)| *contacts).ok_or_else(wrong)
     }
 
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Sliding => "sliding",
-            Self::Springs => "springs",
-            Self::Absent => "none",
-        }
+        Self::NAMES.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
     }
 }
 
@@ -147,15 +148,15 @@ pub fn run(study: &SystemStudy, request: &ReceptanceRequest) -> Result<Receptanc
     has_equations(study, VERB)?;
     let outputs = rows(study, "--outputs", &request.outputs)?;
     let inputs = rows(study, "--inputs", &request.inputs)?;
-    let range = request.frequency.map(checked_range).transpose()?;
+    let range = request.frequency.map(|range| checked_frequencies(range, true)).transpose()?;
     check_listed(request)?;
-    let (linear, friction) = equations(study.system(), request.contacts)?;
+    let SlidingEquations { linear, friction, verdict, warnings: own } =
+        equations(study, request.contacts)?;
     let row = |named: &[(String, Vec<f64>)]| named.iter().map(|(_, row)| row.clone()).collect();
     let into: Vec<Vec<f64>> = row(&inputs);
     let equations = ReceptanceEquations::new(&linear, &friction, row(&outputs), &into)
         .map_err(|why| failed(VERB, why))?
         .ok_or_else(|| failed(VERB, "the mass is singular"))?;
-    let growth = spectrum::growth(&linear, &friction).map_err(|why| failed(VERB, why))?;
     let frequencies = if request.at.is_empty() {
         frequencies(&equations, range, request.points)?
     } else {
@@ -179,7 +180,7 @@ pub fn run(study: &SystemStudy, request: &ReceptanceRequest) -> Result<Receptanc
     });
     let name = |named: Vec<(String, Vec<f64>)>| named.into_iter().map(|(name, _)| name).collect();
     let mut warnings = study.warnings().to_vec();
-    let verdict = growth.verdict();
+    warnings.extend(own);
     if verdict == Verdict::Unstable {
         let what = match request.contacts {
             ContactsAre::Sliding => "steady sliding",
@@ -201,31 +202,22 @@ pub fn run(study: &SystemStudy, request: &ReceptanceRequest) -> Result<Receptanc
 }
 
 /// The linear equations with the friction of every contact.
-fn equations(
-    system: &System,
-    contacts: ContactsAre,
-) -> Result<(Linearised, Vec<FrictionSlopes>), Failure> {
-    let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0, bristles: None };
+fn equations(study: &SystemStudy, contacts: ContactsAre) -> Result<SlidingEquations, Failure> {
+    let system = study.system();
+    let of = |system: &System| {
+        let linear = Linearised::frictionless(system).map_err(|why| failed(VERB, why))?;
+        let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0, bristles: None };
+        let friction = vec![none; system.contacts.len()];
+        let growth = spectrum::growth(&linear, &friction).map_err(|why| failed(VERB, why))?;
+        let verdict = growth.verdict();
+        Ok(SlidingEquations { linear, friction, verdict, warnings: Vec::new() })
+    };
     match contacts {
-        ContactsAre::Sliding if system.is_dithered() => {
-            let prepared = DitheredSystem::new(system).map_err(not_averaged)?;
-            let average = prepared.average().map_err(not_averaged)?;
-            Ok((average.linear, average.friction))
-        }
-        ContactsAre::Sliding => {
-            let linear = Linearised::new(system).map_err(|why| failed(VERB, why))?;
-            let friction = linear.friction();
-            Ok((linear, friction))
-        }
-        ContactsAre::Springs => {
-            let linear = Linearised::frictionless(system).map_err(|why| failed(VERB, why))?;
-            Ok((linear, vec![none; system.contacts.len()]))
-        }
+        ContactsAre::Sliding => SlidingEquations::new(study, VERB),
+        ContactsAre::Springs => of(system),
         ContactsAre::Absent => {
             let structure = system.structure.clone();
-            let alone = System { structure, contacts: Vec::new(), inputs: Vec::new() };
-            let linear = Linearised::frictionless(&alone).map_err(|why| failed(VERB, why))?;
-            Ok((linear, Vec::new()))
+            of(&System { structure, contacts: Vec::new(), inputs: Vec::new() })
         }
     }
 }
@@ -239,10 +231,7 @@ fn rows(
     let known = study.row_names();
     let own: Vec<String>;
     let names = if names.is_empty() {
-        let contacts: Vec<String> =
-            study.system().contacts.iter().map(|contact| format!("{}.", contact.name)).collect();
-        let is_of_contact = |name: &&String| contacts.iter().any(|start| name.starts_with(start));
-        own = known.iter().filter(is_of_contact).take(MOST_NAMES).cloned().collect();
+        own = study.contact_row_names().collect();
         &own
     } else {
         names
@@ -256,8 +245,9 @@ fn rows(
         return Err(Complaint::option(option, "", allowed).into());
     }
     if names.len() > MOST_NAMES {
-        let allowed = format!("at most {MOST_NAMES} names");
-        return Err(Complaint::option(option, names.join(","), allowed).into());
+        let allowed = format!("at most {MOST_NAMES} names; these are {}", names.len());
+        let first = names[0].trim();
+        return Err(Complaint::option(option, format!("{first},…"), allowed).into());
     }
     let mut found: Vec<(String, Vec<f64>)> = Vec::new();
     for name in names {
@@ -273,16 +263,6 @@ fn rows(
         found.push((name.to_owned(), row));
     }
     Ok(found)
-}
-
-/// A range that ascends from 0 or above.
-fn checked_range(range: RealInterval) -> Result<RealInterval, Failure> {
-    let RealInterval { lower: from, upper: to } = range;
-    if from >= 0.0 && to > from && to.is_finite() {
-        return Ok(range);
-    }
-    let allowed = "two numbers, the first at least 0, the second above the first";
-    Err(Complaint::option("--frequency", format!("{from}:{to}"), allowed).into())
 }
 
 /// Rejects listed frequencies that do not ascend, and a range next to them.
