@@ -100,7 +100,7 @@ def test_complex_modes_become_real_ones(end: str, tmp_path: Path) -> None:
     assert "mode 1 (line 9): 1.0000; mode 2 (line" in kept and "below 0.95: mode 3 (line" in left
     # (Σ|a|² − Σ|b|²)²/(Σ|a|² + Σ|b|²)² of two parts at a right angle.
     sizes = [sum(x * x for x in SHAPE[:3]), sum(x * x for x in SHAPE[3:])]
-    assert f": {((sizes[0] - sizes[1]) / sum(sizes)) ** 2:.3g}." in left
+    assert f": {((sizes[0] - sizes[1]) / sum(sizes)) ** 2:.4f}." in left
     more = quell.from_universal_file(file, collinearity=0.1, modal_mass=[3, 3, 3], **pad())
     assert len(more.mode) == 3
     with pytest.raises(quell.StudyError, match="collinearity = 0.95.*mode 3 .line 2.: 0."):
