@@ -124,8 +124,8 @@ fn shape(cell: &str) -> Option<NumberShape> {
     }
 }
 
-/// The cells of a line. In quotes a separator is part of a cell; commas that a spreadsheet adds at the end of a line with another separator are
-/// none.
+/// The cells of a line. In quotes a separator is part of a cell. Commas that a spreadsheet adds at the end of a line with another separator are
+/// left out.
 pub fn cells(line: &str, separator: char) -> Vec<&str> {
     if separator == ' ' {
         return line.split_whitespace().map(unquoted).collect();

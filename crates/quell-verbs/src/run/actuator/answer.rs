@@ -191,6 +191,16 @@ impl ActuatorFound {
                 digits(FEW_SAMPLES)
             ));
         }
+        warnings.extend(self.closing.iter().map(|window| {
+            let force = |amplitude| study.in_words(Quantity::Force, amplitude);
+            format!(
+                "at {} by averaging only amplitudes from {} to {} quench: above, sliding is unstable again, and the actuator can give {}",
+                scale.with_noun(window.frequency),
+                force(window.amplitudes.lower),
+                force(window.amplitudes.upper),
+                force(window.largest)
+            )
+        }));
         if let Some(slow) = self.slow_dither().filter(|slow| self.range.lower < FAR * slow) {
             warnings.push(format!(
                 "below {} the dither repeats at less than {} times the frequency of the vibration: averaging assumes that it is much \

@@ -12,6 +12,7 @@ mod rating;
 use quell_design::NoAnswer;
 use quell_design::actuator::{Actuator, ActuatorAtFrequency, ActuatorCoverage, coverage};
 use quell_design::least_dither::{DesignStart, OperatingPoint, Plant, SystemPlant};
+use quell_linear::averaging::{Becomes, CriticalInput, DitheredSystem};
 use quell_linear::growth::Verdict;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
@@ -62,6 +63,20 @@ pub struct ActuatorFound {
     pub slow: Option<f64>,
     /// Names of the contacts with the speed of their surface.
     pub contacts: Vec<(String, f64)>,
+    /// Where a larger amplitude than the least that quenches, but one that the actuator can give, quenches no longer: at the largest margin and
+    /// at the study's frequency.
+    pub closing: Vec<ClosingWindow>,
+}
+
+/// Amplitudes that quench only up to one that the actuator can give.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosingWindow {
+    /// Frequency of the dither.
+    pub frequency: f64,
+    /// From the least amplitude that quenches to that from which sliding is unstable again.
+    pub amplitudes: RealInterval,
+    /// The largest amplitude that the actuator can give.
+    pub largest: f64,
 }
 
 impl ActuatorFound {
@@ -121,10 +136,18 @@ pub fn run(study: &SystemStudy, range: Option<RealInterval>) -> Result<ActuatorF
     }
     let coverage = coverage(without_poles(samples, &resonances), &at);
     let own = at(wave.frequency);
+    let closing = coverage.best.iter().chain([&own]).filter_map(|found| {
+        let system =
+            with(OperatingPoint { point: &[], others: &[found.frequency] }, wave.amplitude).ok()?;
+        closing_window(&system, input, found)
+    });
+    let mut closing: Vec<ClosingWindow> = closing.collect();
+    closing.dedup();
     let speed = |contact: &Contact| contact.surface_velocity.mean().abs();
     let contacts = system.contacts.iter();
     Ok(ActuatorFound {
         notable: notable(&coverage, &own, range, &at),
+        closing,
         coverage,
         own,
         own_amplitude: wave.amplitude,
@@ -134,6 +157,24 @@ pub fn run(study: &SystemStudy, range: Option<RealInterval>) -> Result<ActuatorF
         slow,
         contacts: contacts.map(|contact| (contact.name.clone(), speed(contact))).collect(),
     })
+}
+
+/// Where averaged sliding becomes unstable again between the least amplitude that quenches and the largest of the actuator.
+fn closing_window(
+    system: &System,
+    input: usize,
+    found: &ActuatorAtFrequency,
+) -> Option<ClosingWindow> {
+    let (least, largest) = (*found.needed.as_ref().ok()?, found.reach().ok()?.amplitude);
+    let changes = DitheredSystem::new(system).and_then(|there| there.critical_amplitudes(input));
+    let opens = |change: &CriticalInput| {
+        change.becomes == Becomes::Unstable
+            && change.amplitude > least
+            && change.amplitude < largest
+    };
+    let until = changes.ok()?.into_iter().find(opens)?.amplitude;
+    let amplitudes = RealInterval::new(least, until);
+    Some(ClosingWindow { frequency: found.frequency, amplitudes, largest })
 }
 
 /// The actuator of a study that has one, and a dither.

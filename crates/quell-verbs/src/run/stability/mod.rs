@@ -12,7 +12,8 @@ pub use one_mass::{LOOKED_AT, LimitStability, NoStableAmplitude, OneMassStabilit
 
 use quell_dynamics::orbit::NoSlidingVerdict;
 use quell_linear::averaging::{
-    AveragedSliding, AveragingError, Becomes, CriticalInput, CrossingKind, DitheredContact, DitheredSystem,
+    AveragedSliding, AveragingError, Becomes, CriticalInput, CrossingKind, DitheredContact,
+    DitheredSystem,
 };
 use quell_linear::growth::{Growth, Verdict};
 use quell_linear::linearised::{FrictionSlopes, Linearised};
