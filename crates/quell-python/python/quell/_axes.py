@@ -8,7 +8,7 @@ from typing import Any, Literal, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._tables import Number, Table, Unknown
+from ._tables import Number, Table, key
 from ._values import plain
 
 __all__ = ["Axes", "Axis", "axes_tables"]
@@ -34,29 +34,17 @@ class Axis(Table):
 
     _path = "sweep"
 
-    parameter: str | None
-    from_: float | str | None
-    to: float | str | None
-    points: int | None
-    values: Any
-    spacing: str | None
+    parameter: str | None = key(default=None, kw_only=False)
+    from_: Number | None = key(default=None, kw_only=False)
+    to: Number | None = key(default=None, kw_only=False)
+    points: int | None = key(default=None, kw_only=False)
+    values: Numbers | None = None
+    spacing: Literal["linear", "log"] | None = None
 
-    def __init__(
-        self,
-        parameter: str | None = None,
-        from_: Number | None = None,
-        to: Number | None = None,
-        points: int | None = None,
-        *,
-        values: Numbers | None = None,
-        spacing: Literal["linear", "log"] | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        given = None if values is None else listed(values)
-        begin = {"from": from_}
-        super().__init__(
-            parameter=parameter, to=to, points=points, values=given, spacing=spacing, **begin, **unknown
-        )
+    def _read(self, keys: dict[str, Any]) -> dict[str, Any]:
+        if keys.get("values") is not None:
+            keys["values"] = listed(keys["values"])
+        return {"from" if name == "from_" else name: value for name, value in keys.items()}
 
 
 def listed(values: Any) -> Any:

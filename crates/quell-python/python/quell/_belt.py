@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, Literal
+from typing import Any, Literal, Union
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ._laws import Friction, as_law, law_of
 from ._profile import Profile
 from ._sampling import with_wave
 from ._study import Study
-from ._tables import Number, Table, Unknown, given
+from ._tables import Number, Table, Unknown, given, key
 
 __all__ = [
     "Belt",
@@ -23,7 +23,57 @@ __all__ = [
 ]
 
 
-class Dither(Table):
+Waveform = Union[Literal["sine", "triangle", "square", "fourier", "samples", "burst", "noise"], "Callable[[float], float]"]
+"""The name of a waveform, or a function of the phase in radians."""
+
+
+class PeriodicForce(Table):
+    """The keys that the dithers of belts, discs and systems share."""
+
+    amplitude: Number | None = None
+    frequency_ratio: Number | None = None
+    frequency: Number | None = None
+    phase: Number | None = None
+    amplitude_n: Number | None = None
+    amplitude_n_rms: Number | None = None
+    amplitude_rms: Number | None = None
+    amplitude_peak_to_peak: Number | None = None
+    amplitude_n_peak_to_peak: Number | None = None
+    amplitude_v: Number | None = None
+    amplitude_v_rms: Number | None = None
+    amplitude_v_peak_to_peak: Number | None = None
+    amplitude_a: Number | None = None
+    amplitude_a_rms: Number | None = None
+    amplitude_a_peak_to_peak: Number | None = None
+    amplitude_percent: Number | None = None
+    frequency_hz: Number | None = None
+    harmonics: Iterable[Mapping[str, Number]] | None = None
+    values: Iterable[float] | None = None
+    file: str | None = None
+    hold: Literal["linear", "zero"] | None = None
+    carrier: Literal["sine", "triangle", "square"] | None = None
+    on: int | None = None
+    off: int | None = None
+    band: tuple[Number, Number] | None = None
+    band_hz: tuple[Number, Number] | None = None
+    lines: int | None = None
+    seed: int | None = None
+    envelope: Profile | Mapping[str, Any] | None = None
+
+    def _read(self, keys: dict[str, Any]) -> dict[str, Any]:
+        keys, distance = with_wave(keys)
+        if distance is not None:
+            self._keep(_waveform_error=distance)
+        return keys
+
+    @property
+    def waveform_error(self) -> float | None:
+        """Of a waveform that is a function: its largest distance from its samples, over its largest value."""
+        found: float | None = self.__dict__.get("_waveform_error")
+        return found
+
+
+class Dither(PeriodicForce):
     """One dither force.
 
     Parameters
@@ -63,86 +113,8 @@ class Dither(Table):
 
     _path = "dither"
 
-    direction: str | None
-    waveform: str | None
-    amplitude: float | str | None
-    frequency_ratio: float | str | None
-    frequency: float | str | None
-    phase: float | str | None
-    amplitude_n: float | str | None
-    amplitude_n_rms: float | str | None
-    amplitude_rms: float | str | None
-    amplitude_peak_to_peak: float | str | None
-    amplitude_n_peak_to_peak: float | str | None
-    amplitude_v: float | str | None
-    amplitude_v_rms: float | str | None
-    amplitude_v_peak_to_peak: float | str | None
-    amplitude_a: float | str | None
-    amplitude_a_rms: float | str | None
-    amplitude_a_peak_to_peak: float | str | None
-    amplitude_percent: float | str | None
-    frequency_hz: float | str | None
-    harmonics: Any
-    values: Any
-    file: str | None
-    hold: str | None
-    carrier: str | None
-    on: int | None
-    off: int | None
-    band: Any
-    band_hz: Any
-    lines: int | None
-    seed: int | None
-    envelope: Any
-
-    def __init__(
-        self,
-        direction: Literal["tangential", "normal"] | None = None,
-        waveform: Literal["sine", "triangle", "square", "fourier", "samples", "burst", "noise"]
-        | Callable[[float], float]
-        | None = None,
-        *,
-        amplitude: Number | None = None,
-        frequency_ratio: Number | None = None,
-        frequency: Number | None = None,
-        phase: Number | None = None,
-        amplitude_n: Number | None = None,
-        amplitude_n_rms: Number | None = None,
-        amplitude_rms: Number | None = None,
-        amplitude_peak_to_peak: Number | None = None,
-        amplitude_n_peak_to_peak: Number | None = None,
-        amplitude_v: Number | None = None,
-        amplitude_v_rms: Number | None = None,
-        amplitude_v_peak_to_peak: Number | None = None,
-        amplitude_a: Number | None = None,
-        amplitude_a_rms: Number | None = None,
-        amplitude_a_peak_to_peak: Number | None = None,
-        amplitude_percent: Number | None = None,
-        frequency_hz: Number | None = None,
-        harmonics: Iterable[Mapping[str, Number]] | None = None,
-        values: Iterable[float] | None = None,
-        file: str | None = None,
-        hold: Literal["linear", "zero"] | None = None,
-        carrier: Literal["sine", "triangle", "square"] | None = None,
-        on: int | None = None,
-        off: int | None = None,
-        band: tuple[Number, Number] | None = None,
-        band_hz: tuple[Number, Number] | None = None,
-        lines: int | None = None,
-        seed: int | None = None,
-        envelope: Profile | Mapping[str, Any] | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        keys, distance = with_wave(given(locals()))
-        super().__init__(**keys)
-        if distance is not None:
-            self._keep(_waveform_error=distance)
-
-    @property
-    def waveform_error(self) -> float | None:
-        """Of a waveform that is a function: its largest distance from its samples, over its largest value."""
-        found: float | None = self.__dict__.get("_waveform_error")
-        return found
+    direction: Literal["tangential", "normal"] | None = key(default=None, kw_only=False)
+    waveform: Waveform | None = key(default=None, kw_only=False)
 
 
 class Initial(Table):
@@ -161,23 +133,11 @@ class Initial(Table):
 
     _path = "belt.initial"
 
-    state: str | None
-    displacement: float | str | None
-    velocity: float | str | None
-    displacement_m: float | str | None
-    velocity_m_per_s: float | str | None
-
-    def __init__(
-        self,
-        state: Literal["rest", "sliding", "squealing"] | None = None,
-        *,
-        displacement: Number | None = None,
-        velocity: Number | None = None,
-        displacement_m: Number | None = None,
-        velocity_m_per_s: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__(**given(locals()))
+    state: Literal["rest", "sliding", "squealing"] | None = key(default=None, kw_only=False)
+    displacement: Number | None = None
+    velocity: Number | None = None
+    displacement_m: Number | None = None
+    velocity_m_per_s: Number | None = None
 
 
 class Solver(Table):
@@ -195,21 +155,10 @@ class Solver(Table):
 
     _path = "solver"
 
-    tolerance: float | str | None
-    settle: float | str | None
-    settle_s: float | str | None
-    record_periods: int | None
-
-    def __init__(
-        self,
-        *,
-        tolerance: Number | None = None,
-        settle: Number | None = None,
-        settle_s: Number | None = None,
-        record_periods: int | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__(**given(locals()))
+    tolerance: Number | None = None
+    settle: Number | None = None
+    settle_s: Number | None = None
+    record_periods: int | None = None
 
 
 OTHER_TABLES = ("friction", "dither", "solver", "band", "band_hz", "design", "actuator", "uncertainty", "axes", "title")

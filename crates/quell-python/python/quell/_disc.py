@@ -58,87 +58,43 @@ class Load(Table):
 
     _path = "disc.load"
 
-    radius_ratio: float | str | None
-    angle_deg: float | str | None
-    mass: float | str | None
-    damping: float | str | None
-    stiffness: float | str | None
-    friction: float | str | None
-    mass_kg: float | str | None
-    damping_n_s_per_m: float | str | None
-    stiffness_n_per_m: float | str | None
-    friction_n: float | str | None
-    normal_load: float | str | None
-    normal_load_n: float | str | None
-    half_thickness: float | str | None
-    static_load: float | str | None
-    static_load_n: float | str | None
-    slip_ratio: float | str | None
-    extent_deg: float | str | None
-    radial_extent: float | str | None
-    points: int | None
-    radial_points: int | None
-    pad_mass: float | str | None
-    pad_mass_kg: float | str | None
-    pad_damping: float | str | None
-    pad_damping_n_s_per_m: float | str | None
-    pad_stiffness: float | str | None
-    pad_stiffness_n_per_m: float | str | None
-    caliper_mass: float | str | None
-    caliper_mass_kg: float | str | None
-    caliper_damping: float | str | None
-    caliper_damping_n_s_per_m: float | str | None
-    caliper_stiffness: float | str | None
-    caliper_stiffness_n_per_m: float | str | None
-    dither_phase_deg: float | str | None
-    envelope: Any
-    speed: float | str | None
-    speed_hz: float | str | None
-    speed_rpm: float | str | None
-
-    def __init__(
-        self,
-        *,
-        radius_ratio: Number | None = None,
-        angle_deg: Number | None = None,
-        mass: Number | None = None,
-        damping: Number | None = None,
-        stiffness: Number | None = None,
-        friction: Number | None = None,
-        mass_kg: Number | None = None,
-        damping_n_s_per_m: Number | None = None,
-        stiffness_n_per_m: Number | None = None,
-        friction_n: Number | None = None,
-        normal_load: Number | None = None,
-        normal_load_n: Number | None = None,
-        half_thickness: Number | None = None,
-        static_load: Number | None = None,
-        static_load_n: Number | None = None,
-        slip_ratio: Number | None = None,
-        extent_deg: Number | None = None,
-        radial_extent: Number | None = None,
-        points: int | None = None,
-        radial_points: int | None = None,
-        pad_mass: Number | None = None,
-        pad_mass_kg: Number | None = None,
-        pad_damping: Number | None = None,
-        pad_damping_n_s_per_m: Number | None = None,
-        pad_stiffness: Number | None = None,
-        pad_stiffness_n_per_m: Number | None = None,
-        caliper_mass: Number | None = None,
-        caliper_mass_kg: Number | None = None,
-        caliper_damping: Number | None = None,
-        caliper_damping_n_s_per_m: Number | None = None,
-        caliper_stiffness: Number | None = None,
-        caliper_stiffness_n_per_m: Number | None = None,
-        dither_phase_deg: Number | None = None,
-        envelope: Profile | Mapping[str, Any] | None = None,
-        speed: Number | None = None,
-        speed_hz: Number | None = None,
-        speed_rpm: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__(**given(locals()))
+    radius_ratio: Number | None = None
+    angle_deg: Number | None = None
+    mass: Number | None = None
+    damping: Number | None = None
+    stiffness: Number | None = None
+    friction: Number | None = None
+    mass_kg: Number | None = None
+    damping_n_s_per_m: Number | None = None
+    stiffness_n_per_m: Number | None = None
+    friction_n: Number | None = None
+    normal_load: Number | None = None
+    normal_load_n: Number | None = None
+    half_thickness: Number | None = None
+    static_load: Number | None = None
+    static_load_n: Number | None = None
+    slip_ratio: Number | None = None
+    extent_deg: Number | None = None
+    radial_extent: Number | None = None
+    points: int | None = None
+    radial_points: int | None = None
+    pad_mass: Number | None = None
+    pad_mass_kg: Number | None = None
+    pad_damping: Number | None = None
+    pad_damping_n_s_per_m: Number | None = None
+    pad_stiffness: Number | None = None
+    pad_stiffness_n_per_m: Number | None = None
+    caliper_mass: Number | None = None
+    caliper_mass_kg: Number | None = None
+    caliper_damping: Number | None = None
+    caliper_damping_n_s_per_m: Number | None = None
+    caliper_stiffness: Number | None = None
+    caliper_stiffness_n_per_m: Number | None = None
+    dither_phase_deg: Number | None = None
+    envelope: Profile | Mapping[str, Any] | None = None
+    speed: Number | None = None
+    speed_hz: Number | None = None
+    speed_rpm: Number | None = None
 
 
 class Mode(Table):
@@ -160,25 +116,12 @@ class Mode(Table):
 
     _path = "disc.mode"
 
-    diameters: int | None
-    ratio: float | str | None
-    frequency_hz: float | str | None
-    shape_at_load: float | str | None
-    damping: float | str | None
-    centrifugal: float | str | None
-
-    def __init__(
-        self,
-        *,
-        diameters: int | None = None,
-        ratio: Number | None = None,
-        frequency_hz: Number | None = None,
-        shape_at_load: Number | None = None,
-        damping: Number | None = None,
-        centrifugal: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__(**given(locals()))
+    diameters: int | None = None
+    ratio: Number | None = None
+    frequency_hz: Number | None = None
+    shape_at_load: Number | None = None
+    damping: Number | None = None
+    centrifugal: Number | None = None
 
 
 class Disc(Study):

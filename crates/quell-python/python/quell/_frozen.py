@@ -23,14 +23,22 @@ else:
         return lambda cls: cls
 
 
-__all__ = ["Frozen", "FrozenDict", "FrozenList", "Records", "SCALARS", "as_array", "frozen", "read_only", "thawed"]
+__all__ = ["PLACED", "Frozen", "FrozenDict", "FrozenList", "Records", "SCALARS", "as_array", "frozen", "read_only", "key", "thawed"]
 
 Self = TypeVar("Self", bound="Frozen")
 T = TypeVar("T")
 V = TypeVar("V")
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, eq_default=False)
+PLACED = object()
+
+
+def key(*, default: Any = None, kw_only: bool = True) -> Any:
+    """A key of a table; with ``kw_only=False`` it may also be given by its place."""
+    return default if kw_only else PLACED
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, eq_default=False, field_specifiers=(key,))
 class Frozen:
     """A value whose attributes cannot be set; type checkers report the attempt."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, ClassVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ._arguments import Arguments, keywords
 from ._errors import StudyError, complaint
 from ._frozen import frozen
-from ._tables import Number, Table, Unknown, given
+from ._tables import Number, Table, key
 from ._values import plain
 
 if TYPE_CHECKING:
@@ -52,10 +52,14 @@ class Friction(Table):
     """
 
     _path = "friction"
-    law: str
 
     def __init__(self, law: str, **parameters: Any) -> None:
         super().__init__(law=law, **parameters)
+
+    @property
+    def law(self) -> str:
+        """Name of the law."""
+        return str(self.given.get("law"))
 
     if TYPE_CHECKING:
         # Which parameters a law has depends on its name.
@@ -72,7 +76,16 @@ class Friction(Table):
     __hash__ = None
 
 
-class Stribeck(Friction):
+class NamedLaw(Friction):
+    """A law with a class of its own."""
+
+    _law: ClassVar[str]
+
+    def __init__(self, *places: Any, **keys: Any) -> None:
+        Table.__init__(self, *places, law=self._law, **keys)
+
+
+class Stribeck(NamedLaw):
     """The Stribeck law, μ(v) = μ_s − (3/2)(μ_s − μ_m)(w − w³/3) with w = v/v_m > 0, equation (2.7).
 
     Friction falls to μ_m at v_m, then rises.
@@ -93,23 +106,19 @@ class Stribeck(Friction):
         Older name of ``static_coefficient_n``.
     """
 
-    def __init__(
-        self,
-        *,
-        static_coefficient: Number | None = None,
-        minimum_coefficient: Number | None = None,
-        reference_velocity: Number | None = None,
-        reference_velocity_m_per_s: Number | None = None,
-        friction_force: bool | None = None,
-        static_coefficient_n: Number | None = None,
-        minimum_coefficient_n: Number | None = None,
-        static_friction_force_n: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("stribeck", **given(locals()))
+    _law = "stribeck"
+
+    static_coefficient: Number | None = None
+    minimum_coefficient: Number | None = None
+    reference_velocity: Number | None = None
+    reference_velocity_m_per_s: Number | None = None
+    friction_force: bool | None = None
+    static_coefficient_n: Number | None = None
+    minimum_coefficient_n: Number | None = None
+    static_friction_force_n: Number | None = None
 
 
-class Decreasing(Friction):
+class Decreasing(NamedLaw):
     """The decreasing law, μ(v) = μ_m + (μ_s − μ_m) exp(−v/v_m), equation (2.8).
 
     Parameters
@@ -128,23 +137,19 @@ class Decreasing(Friction):
         Older name of ``static_coefficient_n``.
     """
 
-    def __init__(
-        self,
-        *,
-        static_coefficient: Number | None = None,
-        minimum_coefficient: Number | None = None,
-        reference_velocity: Number | None = None,
-        reference_velocity_m_per_s: Number | None = None,
-        friction_force: bool | None = None,
-        static_coefficient_n: Number | None = None,
-        minimum_coefficient_n: Number | None = None,
-        static_friction_force_n: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("decreasing", **given(locals()))
+    _law = "decreasing"
+
+    static_coefficient: Number | None = None
+    minimum_coefficient: Number | None = None
+    reference_velocity: Number | None = None
+    reference_velocity_m_per_s: Number | None = None
+    friction_force: bool | None = None
+    static_coefficient_n: Number | None = None
+    minimum_coefficient_n: Number | None = None
+    static_friction_force_n: Number | None = None
 
 
-class Coulomb(Friction):
+class Coulomb(NamedLaw):
     """Coulomb friction, μ(v) = μ_d + σ_v v for v > 0, with static friction μ_s ≥ μ_d.
 
     Parameters
@@ -163,25 +168,21 @@ class Coulomb(Friction):
         Older names of ``coefficient_n`` and ``static_coefficient_n``.
     """
 
-    def __init__(
-        self,
-        coefficient: float | None = None,
-        *,
-        static_coefficient: float | None = None,
-        viscous: float | None = None,
-        viscous_s_per_m: float | None = None,
-        friction_force: bool | None = None,
-        coefficient_n: Number | None = None,
-        static_coefficient_n: Number | None = None,
-        friction_force_n: float | None = None,
-        static_friction_force_n: float | None = None,
-        viscous_n_s_per_m: float | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("coulomb", **given(locals()))
+    _law = "coulomb"
+
+    coefficient: float | None = key(default=None, kw_only=False)
+    static_coefficient: float | None = None
+    viscous: float | None = None
+    viscous_s_per_m: float | None = None
+    friction_force: bool | None = None
+    coefficient_n: Number | None = None
+    static_coefficient_n: Number | None = None
+    friction_force_n: float | None = None
+    static_friction_force_n: float | None = None
+    viscous_n_s_per_m: float | None = None
 
 
-class StribeckExponential(Friction):
+class StribeckExponential(NamedLaw):
     """Exponential Stribeck friction, μ(v) = μ_d + (μ_s − μ_d) exp(−(v/v_s)^δ) + σ_v v for v > 0.
 
     Parameters
@@ -204,28 +205,24 @@ class StribeckExponential(Friction):
         Older names of ``coefficient_n`` and ``static_coefficient_n``.
     """
 
-    def __init__(
-        self,
-        *,
-        coefficient: float | None = None,
-        static_coefficient: float | None = None,
-        reference_velocity: float | None = None,
-        exponent: float | None = None,
-        viscous: float | None = None,
-        reference_velocity_m_per_s: float | None = None,
-        viscous_s_per_m: float | None = None,
-        friction_force: bool | None = None,
-        coefficient_n: Number | None = None,
-        static_coefficient_n: Number | None = None,
-        friction_force_n: float | None = None,
-        static_friction_force_n: float | None = None,
-        viscous_n_s_per_m: float | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("stribeck-exponential", **given(locals()))
+    _law = "stribeck-exponential"
+
+    coefficient: float | None = None
+    static_coefficient: float | None = None
+    reference_velocity: float | None = None
+    exponent: float | None = None
+    viscous: float | None = None
+    reference_velocity_m_per_s: float | None = None
+    viscous_s_per_m: float | None = None
+    friction_force: bool | None = None
+    coefficient_n: Number | None = None
+    static_coefficient_n: Number | None = None
+    friction_force_n: float | None = None
+    static_friction_force_n: float | None = None
+    viscous_n_s_per_m: float | None = None
 
 
-class Lugre(Friction):
+class Lugre(NamedLaw):
     """LuGre friction: T/N = σ₀z + σ₁ż + σ₂v with ż = v − σ₀|v|z/g(v) and g(v) = μ_c + (μ_s − μ_c) exp(−(v/v_s)²).
 
     The deflection z of the bristles is a state. ``simulate`` and ``friction`` take it into account; verbs that cannot refuse the law.
@@ -252,31 +249,27 @@ class Lugre(Friction):
         Older names of ``coefficient_n`` and ``static_coefficient_n``.
     """
 
-    def __init__(
-        self,
-        *,
-        coefficient: float | None = None,
-        static_coefficient: float | None = None,
-        reference_velocity: float | None = None,
-        bristle_stiffness: float | None = None,
-        bristle_damping: float | None = None,
-        viscous: float | None = None,
-        reference_velocity_m_per_s: float | None = None,
-        bristle_stiffness_per_m: float | None = None,
-        bristle_damping_s_per_m: float | None = None,
-        viscous_s_per_m: float | None = None,
-        friction_force: bool | None = None,
-        coefficient_n: Number | None = None,
-        static_coefficient_n: Number | None = None,
-        friction_force_n: float | None = None,
-        static_friction_force_n: float | None = None,
-        viscous_n_s_per_m: float | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("lugre", **given(locals()))
+    _law = "lugre"
+
+    coefficient: float | None = None
+    static_coefficient: float | None = None
+    reference_velocity: float | None = None
+    bristle_stiffness: float | None = None
+    bristle_damping: float | None = None
+    viscous: float | None = None
+    reference_velocity_m_per_s: float | None = None
+    bristle_stiffness_per_m: float | None = None
+    bristle_damping_s_per_m: float | None = None
+    viscous_s_per_m: float | None = None
+    friction_force: bool | None = None
+    coefficient_n: Number | None = None
+    static_coefficient_n: Number | None = None
+    friction_force_n: float | None = None
+    static_friction_force_n: float | None = None
+    viscous_n_s_per_m: float | None = None
 
 
-class Expression(Friction):
+class Expression(NamedLaw):
     """A friction law as a formula: ``Expression("0.3 + 0.1*exp(-abs(v)/0.2)")``.
 
     Parameters
@@ -296,20 +289,16 @@ class Expression(Friction):
         The same in m/s, in a study in SI.
     """
 
-    def __init__(
-        self,
-        coefficient: str | None = None,
-        *,
-        constants: Mapping[str, float] | None = None,
-        static_coefficient: Number | None = None,
-        maximum_velocity: Number | None = None,
-        maximum_velocity_m_per_s: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("expression", **given(locals()))
+    _law = "expression"
+
+    coefficient: str | None = key(default=None, kw_only=False)
+    constants: Mapping[str, float] | None = None
+    static_coefficient: Number | None = None
+    maximum_velocity: Number | None = None
+    maximum_velocity_m_per_s: Number | None = None
 
 
-class Samples(Friction):
+class Samples(NamedLaw):
     """A friction law from measured samples: one smooth fit of exponentials, whose error ``Study.check`` reports.
 
     Parameters
@@ -326,20 +315,18 @@ class Samples(Friction):
         Number of exponentials of the fit [default: the best number].
     """
 
-    def __init__(
-        self,
-        slip_velocity: npt.ArrayLike | None = None,
-        coefficient: npt.ArrayLike | None = None,
-        *,
-        slip_velocity_m_per_s: npt.ArrayLike | None = None,
-        file: str | os.PathLike[str] | None = None,
-        static_coefficient: Number | None = None,
-        terms: int | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        keys = given(locals())
-        lists = {name: plain(keys[name]) for name in ("slip_velocity", "slip_velocity_m_per_s", "coefficient")}
-        super().__init__("samples", **{**keys, **lists})
+    _law = "samples"
+
+    slip_velocity: npt.ArrayLike | None = key(default=None, kw_only=False)
+    coefficient: npt.ArrayLike | None = key(default=None, kw_only=False)
+    slip_velocity_m_per_s: npt.ArrayLike | None = None
+    file: str | os.PathLike[str] | None = None
+    static_coefficient: Number | None = None
+    terms: int | None = None
+
+    def _read(self, keys: dict[str, Any]) -> dict[str, Any]:
+        lists = {name: plain(keys.get(name)) for name in ("slip_velocity", "slip_velocity_m_per_s", "coefficient")}
+        return {**keys, **lists}
 
 
 class SampledLaw(Samples):
@@ -370,7 +357,10 @@ class SampledLaw(Samples):
         The largest difference between function and fit between the samples, a coefficient of friction.
     """
 
-    error: float
+    @property
+    def error(self) -> float:
+        """The largest difference between function and fit."""
+        return float(self.__dict__["_error"])
 
     def __init__(
         self,
@@ -414,7 +404,7 @@ class SampledLaw(Samples):
         wanted = np.array([float(function(float(speed))) for speed in speeds])
         off = np.abs(fitted(self.given["coefficient"], speeds_of(self.given), self.given.get("terms"), speeds) - wanted)
         error = float(off.max())
-        self._keep(error=error)
+        self._keep(_error=error)
         largest = float(np.abs(wanted).max())
         if error > bound * largest:
             where = float(speeds[off.argmax()])

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Literal
+from typing import Literal
 
-from ._tables import Number, Table, Unknown, given
+from ._tables import Number, Table, key
 
 __all__ = ["Profile"]
 
@@ -35,34 +35,15 @@ class Profile(Table):
 
     _path = "profile"
 
-    time: Any
-    velocity: Any
-    speed: Any
-    load: Any
-    share: Any
-    time_s: Any
-    velocity_m_per_s: Any
-    speed_hz: Any
-    load_n: Any
-    shape: str | None
-    file: str | None
-    oscillation: Any
-
-    def __init__(
-        self,
-        time: Iterable[float] | None = None,
-        *,
-        velocity: Iterable[float] | None = None,
-        speed: Iterable[float] | None = None,
-        load: Iterable[float] | None = None,
-        share: Iterable[float] | None = None,
-        time_s: Iterable[float] | None = None,
-        velocity_m_per_s: Iterable[float] | None = None,
-        speed_hz: Iterable[float] | None = None,
-        load_n: Iterable[float] | None = None,
-        shape: Literal["linear", "smooth"] | None = None,
-        file: str | None = None,
-        oscillation: Mapping[str, Number] | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__(**given(locals()))
+    time: Iterable[float] | None = key(default=None, kw_only=False)
+    velocity: Iterable[float] | None = None
+    speed: Iterable[float] | None = None
+    load: Iterable[float] | None = None
+    share: Iterable[float] | None = None
+    time_s: Iterable[float] | None = None
+    velocity_m_per_s: Iterable[float] | None = None
+    speed_hz: Iterable[float] | None = None
+    load_n: Iterable[float] | None = None
+    shape: Literal["linear", "smooth"] | None = None
+    file: str | None = None
+    oscillation: Mapping[str, Number] | None = None

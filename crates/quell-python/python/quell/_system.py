@@ -9,13 +9,12 @@ from typing import Any, Literal, Union, overload
 import numpy.typing as npt
 
 from ._axes import Axes, axes_tables
-from ._belt import as_given, listed_tables, number_in, several, single
+from ._belt import PeriodicForce, Waveform, as_given, listed_tables, number_in, several, single
 from ._laws import Friction, as_law, law_of
 from ._names import suggestion
 from ._profile import Profile
-from ._sampling import with_wave
 from ._study import Study
-from ._tables import Number, Table, Unknown, given
+from ._tables import Number, Table, Unknown, given, key
 
 __all__ = ["Component", "Contact", "System", "SystemDither", "SystemInitial", "SystemMode"]
 
@@ -65,57 +64,34 @@ class Contact(Table):
 
     _path = "contact"
 
-    name: str | None
-    tangent: Any
-    normal: Any
-    slope: Any
-    force: Any
-    normal_load: float | str | None
-    normal_stiffness: float | str | None
-    normal_damping: float | str | None
-    tangential_stiffness: float | str | None
-    belt_velocity: float | str | None
-    normal_load_n: float | str | None
-    normal_stiffness_n_per_m: float | str | None
-    normal_damping_n_s_per_m: float | str | None
-    tangential_stiffness_n_per_m: float | str | None
-    belt_velocity_m_per_s: float | str | None
-    friction: Any
-    drive: Any
-    load: Any
+    name: str | None = key(default=None, kw_only=False)
+    tangent: Row | None = None
+    normal: Row | None = None
+    slope: Row | None = None
+    force: Row | None = None
+    normal_load: Number | None = None
+    normal_stiffness: Number | None = None
+    normal_damping: Number | None = None
+    tangential_stiffness: Number | None = None
+    belt_velocity: Number | None = None
+    normal_load_n: Number | None = None
+    normal_stiffness_n_per_m: Number | None = None
+    normal_damping_n_s_per_m: Number | None = None
+    tangential_stiffness_n_per_m: Number | None = None
+    belt_velocity_m_per_s: Number | None = None
+    friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None
+    drive: Profile | Mapping[str, Any] | None = None
+    load: Profile | Mapping[str, Any] | None = None
 
-    def __init__(
-        self,
-        name: str | None = None,
-        *,
-        tangent: Row | None = None,
-        normal: Row | None = None,
-        slope: Row | None = None,
-        force: Row | None = None,
-        normal_load: Number | None = None,
-        normal_stiffness: Number | None = None,
-        normal_damping: Number | None = None,
-        tangential_stiffness: Number | None = None,
-        belt_velocity: Number | None = None,
-        normal_load_n: Number | None = None,
-        normal_stiffness_n_per_m: Number | None = None,
-        normal_damping_n_s_per_m: Number | None = None,
-        tangential_stiffness_n_per_m: Number | None = None,
-        belt_velocity_m_per_s: Number | None = None,
-        friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None,
-        drive: Profile | Mapping[str, Any] | None = None,
-        load: Profile | Mapping[str, Any] | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        keys = given(locals())
-        if callable(friction):
-            in_si = belt_velocity_m_per_s is not None
+    def _read(self, keys: dict[str, Any]) -> dict[str, Any]:
+        if callable(keys.get("friction")):
+            in_si = keys.get("belt_velocity_m_per_s") is not None
             speed = number_in(keys, "belt_velocity_m_per_s" if in_si else "belt_velocity")
-            keys["friction"] = as_law(friction, speed, in_si)
-        super().__init__(**keys)
+            keys["friction"] = as_law(keys["friction"], speed, in_si)
+        return keys
 
 
-class SystemDither(Table):
+class SystemDither(PeriodicForce):
     """A periodic force on a system, or a modulation of the load of a contact.
 
     Parameters
@@ -160,94 +136,12 @@ class SystemDither(Table):
 
     _path = "dither"
 
-    at: Any
-    waveform: str | None
-    contact: str | None
-    direction: str | None
-    reaction: bool | None
-    amplitude: float | str | None
-    mean: float | str | None
-    frequency: float | str | None
-    frequency_ratio: float | str | None
-    phase: float | str | None
-    amplitude_n: float | str | None
-    amplitude_n_rms: float | str | None
-    amplitude_rms: float | str | None
-    amplitude_peak_to_peak: float | str | None
-    amplitude_n_peak_to_peak: float | str | None
-    amplitude_v: float | str | None
-    amplitude_v_rms: float | str | None
-    amplitude_v_peak_to_peak: float | str | None
-    amplitude_a: float | str | None
-    amplitude_a_rms: float | str | None
-    amplitude_a_peak_to_peak: float | str | None
-    amplitude_percent: float | str | None
-    frequency_hz: float | str | None
-    harmonics: Any
-    values: Any
-    file: str | None
-    hold: str | None
-    carrier: str | None
-    on: int | None
-    off: int | None
-    band: Any
-    band_hz: Any
-    lines: int | None
-    seed: int | None
-    envelope: Any
-
-    def __init__(
-        self,
-        at: Row | None = None,
-        waveform: Literal["sine", "triangle", "square", "fourier", "samples", "burst", "noise"]
-        | Callable[[float], float]
-        | None = None,
-        *,
-        contact: str | None = None,
-        direction: Literal["tangential", "normal", "friction"] | None = None,
-        reaction: bool | None = None,
-        amplitude: Number | None = None,
-        mean: Number | None = None,
-        frequency: Number | None = None,
-        frequency_ratio: Number | None = None,
-        phase: Number | None = None,
-        amplitude_n: Number | None = None,
-        amplitude_n_rms: Number | None = None,
-        amplitude_rms: Number | None = None,
-        amplitude_peak_to_peak: Number | None = None,
-        amplitude_n_peak_to_peak: Number | None = None,
-        amplitude_v: Number | None = None,
-        amplitude_v_rms: Number | None = None,
-        amplitude_v_peak_to_peak: Number | None = None,
-        amplitude_a: Number | None = None,
-        amplitude_a_rms: Number | None = None,
-        amplitude_a_peak_to_peak: Number | None = None,
-        amplitude_percent: Number | None = None,
-        frequency_hz: Number | None = None,
-        harmonics: Iterable[Mapping[str, Number]] | None = None,
-        values: Iterable[float] | None = None,
-        file: str | None = None,
-        hold: Literal["linear", "zero"] | None = None,
-        carrier: Literal["sine", "triangle", "square"] | None = None,
-        on: int | None = None,
-        off: int | None = None,
-        band: tuple[Number, Number] | None = None,
-        band_hz: tuple[Number, Number] | None = None,
-        lines: int | None = None,
-        seed: int | None = None,
-        envelope: Profile | Mapping[str, Any] | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        keys, distance = with_wave(given(locals()))
-        super().__init__(**keys)
-        if distance is not None:
-            self._keep(_waveform_error=distance)
-
-    @property
-    def waveform_error(self) -> float | None:
-        """Of a waveform that is a function: its largest distance from its samples, over its largest value."""
-        found: float | None = self.__dict__.get("_waveform_error")
-        return found
+    at: Row | None = key(default=None, kw_only=False)
+    waveform: Waveform | None = key(default=None, kw_only=False)
+    contact: str | None = None
+    direction: Literal["tangential", "normal", "friction"] | None = None
+    reaction: bool | None = None
+    mean: Number | None = None
 
 
 class SystemInitial(Table):
@@ -267,25 +161,12 @@ class SystemInitial(Table):
 
     _path = "system.initial"
 
-    state: str | None
-    displacements: Any
-    velocities: Any
-    displacements_m: Any
-    velocities_m_per_s: Any
-    values: Any
-
-    def __init__(
-        self,
-        state: Literal["rest", "sliding", "squealing", "base"] | None = None,
-        *,
-        displacements: Row | None = None,
-        velocities: Row | None = None,
-        displacements_m: Row | None = None,
-        velocities_m_per_s: Row | None = None,
-        values: Row | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__(**given(locals()))
+    state: Literal["rest", "sliding", "squealing", "base"] | None = key(default=None, kw_only=False)
+    displacements: Row | None = None
+    velocities: Row | None = None
+    displacements_m: Row | None = None
+    velocities_m_per_s: Row | None = None
+    values: Row | None = None
 
 
 class SystemMode(Table):
@@ -305,25 +186,12 @@ class SystemMode(Table):
 
     _path = "system.mode"
 
-    frequency: float | str | None
-    frequency_hz: float | str | None
-    damping_ratio: float | str | None
-    modal_mass: float | str | None
-    modal_mass_kg: float | str | None
-    shape: Any
-
-    def __init__(
-        self,
-        *,
-        frequency: Number | None = None,
-        frequency_hz: Number | None = None,
-        damping_ratio: Number | None = None,
-        modal_mass: Number | None = None,
-        modal_mass_kg: Number | None = None,
-        shape: Row | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__(**given(locals()))
+    frequency: Number | None = None
+    frequency_hz: Number | None = None
+    damping_ratio: Number | None = None
+    modal_mass: Number | None = None
+    modal_mass_kg: Number | None = None
+    shape: Row | None = None
 
 
 class Component(Table):
@@ -343,21 +211,13 @@ class Component(Table):
 
     _path = "system.component"
 
-    name: str | None
-    mode: Any
-    modes: str | None
-    normalisation: str | None
+    name: str | None = key(default=None, kw_only=False)
+    mode: SystemMode | Iterable[SystemMode] | None = None
+    modes: str | os.PathLike[str] | None = None
+    normalisation: Literal["mass", "max"] | None = None
 
-    def __init__(
-        self,
-        name: str | None = None,
-        *,
-        mode: SystemMode | Iterable[SystemMode] | None = None,
-        modes: str | os.PathLike[str] | None = None,
-        normalisation: Literal["mass", "max"] | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__(**{**given(locals(), "mode"), "mode": tables(mode)})
+    def _read(self, keys: dict[str, Any]) -> dict[str, Any]:
+        return {**keys, "mode": tables(keys.get("mode"))}
 
 
 class System(Study):

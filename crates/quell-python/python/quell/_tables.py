@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from inspect import Parameter, Signature, get_annotations
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, TypeVar, Union
 
-from ._frozen import Frozen, FrozenDict, frozen
+from ._frozen import PLACED, Frozen, FrozenDict, frozen, key
 from ._names import suggestion
 
-__all__ = ["Number", "Table", "given"]
+__all__ = ["Number", "Table", "given", "key"]
 
 
 class Quantity(Protocol):
@@ -39,12 +40,47 @@ class Table(Frozen):
     """
 
     _path: ClassVar[str] = ""
+    _declared: ClassVar[dict[str, bool]] = {}
+    """The keys, and whether each may be given by its place: those that may come first."""
 
-    given: Mapping[str, Any]
-    """The given values, by key."""
+    def __init_subclass__(cls) -> None:
+        # A declared key is no attribute of the class: `__getattr__` finds the given values.
+        own = {name: vars(cls).get(name) for name in get_annotations(cls) if not name.startswith("_")}
+        for name in own:
+            if name in vars(cls):
+                delattr(cls, name)
+        declared = {**cls._declared, **{name: default is PLACED for name, default in own.items()}}
+        cls._declared = dict(sorted(declared.items(), key=lambda item: not item[1]))
+        kinds = {True: Parameter.POSITIONAL_OR_KEYWORD, False: Parameter.KEYWORD_ONLY}
+        parameters = [Parameter(name, kinds[placed], default=None) for name, placed in cls._declared.items()]
+        if "__init__" not in vars(cls):
+            cls.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
 
-    def __init__(self, **given: Any) -> None:
-        self._keep(given=kept(given))
+    def __init__(self, *places: Any, **keys: Any) -> None:
+        self._keep(given=kept(self._read(self._named(places, keys))))
+
+    @classmethod
+    def _named(cls, places: tuple[Any, ...], keys: dict[str, Any]) -> dict[str, Any]:
+        """The keys with those that are given by their place, in the order of the declaration."""
+        names = [name for name, placed in cls._declared.items() if placed]
+        if len(places) > len(names):
+            raise TypeError(f"{cls.__name__}() takes {len(names)} positional arguments but {len(places)} were given")
+        placed = dict(zip(names, places, strict=False))
+        if twice := sorted(placed.keys() & keys.keys()):
+            raise TypeError(f"{cls.__name__}() got multiple values for argument {twice[0]!r}")
+        found = {**placed, **keys}
+        others = {name: value for name, value in found.items() if name not in cls._declared}
+        return {**others, **{name: found[name] for name in cls._declared if name in found}}
+
+    def _read(self, keys: dict[str, Any]) -> dict[str, Any]:
+        """The keys as they are written in a study."""
+        return keys
+
+    @property
+    def given(self) -> Mapping[str, Any]:
+        """The given values, by key."""
+        found: Mapping[str, Any] = self.__dict__["given"]
+        return found
 
     @classmethod
     def _of(cls: type[Self], given: Mapping[str, Any]) -> Self:
@@ -76,9 +112,8 @@ class Table(Frozen):
             raise AttributeError(f"{type(self).__name__} has no {name}{suggestion(name, [*self.given, *keys])}")
 
     def _keys(self) -> tuple[str, ...]:
-        """Arguments of the class, which are its keys."""
-        code = type(self).__init__.__code__
-        return code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
+        """The declared keys."""
+        return tuple(self._declared)
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self._keys(), *self.given})
