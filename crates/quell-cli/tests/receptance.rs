@@ -145,7 +145,7 @@ fn rows_ranges_and_points_are_checked() {
         (&["--points", "1"], "--points", "from 2"),
         (&["--at", "2,1"], "--at", "each above the one before"),
         (&["--at", "1,2", "--points", "5"], "--points", "--at gives"),
-        (&["--contacts", "open"], "--contacts", "sliding, springs or none"),
+        (&["--contacts", "open"], "--contacts", "sliding, springs, none"),
     ];
     for (options, key, words) in cases {
         let arguments = [&["receptance", "pad.toml"], options].concat();

@@ -40,9 +40,9 @@ const SYMBOLS: &[Symbol] = &[
     ("Ns", 0, [1.0, 1.0], [1, 1, -1, 0, 0], true),
     ("Pa", 0, [1.0, 1.0], [1, -1, -2, 0, 0], true),
     // The international inch and foot, and the pound-force: the avoirdupois pound under standard gravity. "Pound" alone is a mass or a force.
-    ("in", -4, [254.0, 1.0], [0, 1, 0, 0, 0], false),
-    ("ft", -4, [3048.0, 1.0], [0, 1, 0, 0, 0], false),
-    ("lbf", -13, [44_482_216_152_605.0, 1.0], [1, 1, -2, 0, 0], false),
+    ("in", 0, [127.0, 5000.0], [0, 1, 0, 0, 0], false),
+    ("ft", 0, [381.0, 1250.0], [0, 1, 0, 0, 0], false),
+    ("lbf", 0, [8_896_443_230_521.0, 2e12], [1, 1, -2, 0, 0], false),
     ("W", 0, [1.0, 1.0], [1, 2, -3, 0, 0], true),
     ("Hz", 0, [1.0, 1.0], [0, 0, -1, 0, 0], true),
     ("rpm", 0, [1.0, 60.0], [0, 0, -1, 0, 0], false),
@@ -302,7 +302,8 @@ mod tests {
             ("3 cm", "m", 0.03),
             ("2 lbf", "N", 8.896_443_230_521),
             ("4 in/s", "m/s", 0.101_6),
-            ("100 lbf/in", "N/m", 17_512.683_524_647_636),
+            ("3 in", "m", 0.076_2),
+            ("100 lbf/in", "N/m", 17_512.683_524_647_637),
         ] {
             assert_eq!(read(text, Some(wanted)), Ok(value), "{text} in {wanted}");
         }

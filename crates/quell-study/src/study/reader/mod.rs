@@ -156,6 +156,16 @@ impl Reader {
     /// All complaints, in the order of the text, and what a later reading need not read or compute again.
     pub(super) fn finish(mut self) -> (Vec<Complaint>, Files, Computed, StudyParts) {
         self.complaints.sort_by_key(|complaint| complaint.origin.line().unwrap_or(usize::MAX));
+        // A key that is misspelt is not missing too.
+        let misspelt: Vec<String> = self
+            .complaints
+            .iter()
+            .filter(|complaint| complaint.fault == Fault::Unknown)
+            .filter_map(|complaint| complaint.suggestion.clone())
+            .collect();
+        self.complaints.retain(|complaint| {
+            complaint.fault != Fault::Missing || !misspelt.contains(&complaint.key)
+        });
         (self.complaints, self.files, self.computed, self.parts)
     }
 
