@@ -210,6 +210,7 @@ fn few_contacts_stand_for_a_surface() {
     assert!((load("few.toml") - load("pad.toml")).abs() < 1e-4 * load("pad.toml"));
     let one = place.good(&["convert", "pad.toml", "--contacts", "1"]);
     assert!(one["contacts_error"].as_f64().is_some_and(|error| error > 0.01), "{one}");
+    assert!(one["warnings"].to_string().contains("1e-6 was allowed"), "{one}");
     assert_eq!(place.refused(&["convert", "pad.toml", "--contacts", "0"])[0]["key"], "--contacts");
     assert_eq!(
         place.refused(&["convert", "pad.toml", "--contacts", "3", "--error", "2"])[0]["key"],

@@ -66,7 +66,7 @@ impl ReceptanceEquations {
         let solved = self.decomposition.solve_shifted(shift, &self.columns)?;
         // (A − iω)y = −b.
         let along = |row: &[f64], y: &[Complex64]| {
-            -row.iter().zip(y).map(|(r, y)| y * *r).sum::<Complex64>()
+            row.iter().zip(y).fold(Complex64::ZERO, |sum, (r, y)| sum - y * *r)
         };
         let of = |row: &Vec<f64>| solved.iter().map(|y| along(row, y)).collect();
         Some(self.outputs.iter().map(of).collect())

@@ -21,6 +21,8 @@ pub struct FewerContacts {
     pub contacts: [usize; 2],
     /// Largest relative error of the sums over a surface.
     pub error: f64,
+    /// The relative error that was allowed.
+    pub allowed: f64,
     /// The leading small motion of the study and of that with few contacts, or why none is known.
     pub growth: [Result<Growth, String>; 2],
 }
@@ -61,7 +63,8 @@ pub fn run(study: &Study, most: usize, error: f64) -> Result<FewerContacts, Fail
     let before = own.contacts.len();
     let few = study.with_contacts(&kept)?;
     let growth = [growth(&system), growth(&few.system())];
-    Ok(FewerContacts { contacts: [before, kept.len()], study: few, error: largest, growth })
+    let contacts = [before, kept.len()];
+    Ok(FewerContacts { contacts, study: few, error: largest, allowed: error, growth })
 }
 
 /// The growth rate of the leading small motion.
@@ -146,7 +149,23 @@ impl FewerContacts {
 
     /// What the answer does not cover.
     pub fn warnings(&self) -> Vec<String> {
+        let few = (self.error > self.allowed).then(|| {
+            format!(
+                "these contacts leave a relative error of {}, and {} was allowed: more of them, or a larger --error",
+                digits(self.error),
+                digits(self.allowed)
+            )
+        });
+        let verdicts = self.growth.each_ref().map(|growth| Some(growth.as_ref().ok()?.verdict()));
+        let changed = match verdicts {
+            [Some(before), Some(now)] if before != now => Some(format!(
+                "sliding was {} and is {} with these contacts: they are too few",
+                before.name(),
+                now.name()
+            )),
+            _ => None,
+        };
         let what = "a part of a surface sticks or opens alone only where a contact stands for it: compare motions that stick with more contacts";
-        vec![what.to_owned()]
+        few.into_iter().chain(changed).chain([what.to_owned()]).collect()
     }
 }

@@ -20,7 +20,7 @@ pub(super) struct ExportUnits {
 
 impl ExportUnits {
     pub(super) fn of(study: &SystemStudy) -> Self {
-        let unit = |quantity| study.units().unit(quantity).unwrap_or("the unit of the study");
+        let unit = |quantity| study.units().unit(quantity).unwrap_or("in the unit of the study");
         let is_si = study.units() == UnitSystem::Si;
         let millimetres = is_si.then_some(1000.0);
         Self { speed: unit(Quantity::Velocity), force: unit(Quantity::Force), millimetres }
